@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <utility>
 
 #include "drivers/canopen/drive_proof.h"
 
@@ -33,81 +34,74 @@ std::string kind_of(std::uint32_t id) {
 
 }  // namespace
 
-WheelAxis::WheelAxis(const CanAxis& setup, Duration heartbeat) noexcept
+WheelAxis::WheelAxis(const CanAxis& setup, Duration heartbeat, Duration showing) noexcept
     : setup_(setup),
       heartbeat_(heartbeat),
+      showing_(showing),
       command_mapping_(command_pdo(setup.node).mapping),
       status_mapping_(status_pdo(setup.node).mapping),
       position_mapping_(position_pdo(setup.node).mapping) {}
 
-void WheelAxis::take(const ReceivedFrame& received) noexcept {
+AxisNews WheelAxis::take(const ReceivedFrame& received) noexcept {
   const CanFrame& frame = received.frame;
-  if (frame.extended) return;
+  if (frame.extended) return {};
   const auto heartbeat = decode_heartbeat(frame);
-  if (heartbeat && heartbeat->node == setup_.node) take_heartbeat(heartbeat->state, received.stamp);
-  if (frame.id == 0x180U + setup_.node) take_status(received);
-  if (frame.id == 0x280U + setup_.node) take_position(received);
+  if (heartbeat && heartbeat->node == setup_.node) return take_heartbeat(heartbeat->state, received.stamp);
+  if (frame.id == 0x180U + setup_.node) return take_status(received);
+  if (frame.id == 0x280U + setup_.node) return take_position(frame);
+  return {};
 }
 
-// A boot-up may be followed by "operational" at once, from a drive that starts itself: it is kept.
-void WheelAxis::take_heartbeat(NmtState state, Time stamp) noexcept {
+AxisNews WheelAxis::take_heartbeat(NmtState state, Time stamp) noexcept {
   has_twin_ = !heartbeats_.take_at(stamp, heartbeat_) || has_twin_;
   network_ = state;
-  heard_ = stamp;
-  restarted_ = restarted_ || state == NmtState::kBootUp;
-  if (state == NmtState::kOperational) return;
-  if (left_network_ != DriveTrouble::kDriveRestarted)
-    left_network_ = state == NmtState::kBootUp ? DriveTrouble::kDriveRestarted : DriveTrouble::kNotOperational;
+  AxisNews news{.heartbeat = true};
+  if (state == NmtState::kBootUp)
+    news.trouble = DriveTrouble::kDriveRestarted;
+  else if (state != NmtState::kOperational)
+    news.trouble = DriveTrouble::kNotOperational;
+  return news;
 }
 
-void WheelAxis::take_status(const ReceivedFrame& received) noexcept {
+AxisNews WheelAxis::take_status(const ReceivedFrame& received) noexcept {
   has_twin_ = !statuses_.take() || has_twin_;
   const auto values = unpack(status_mapping_, received.frame);
-  if (!values) return;
+  if (!values) return {};
   state_ = state_of(static_cast<std::uint16_t>((*values)[0]));
-  const auto counts = static_cast<double>(static_cast<std::int32_t>((*values)[1]));
-  feedback_ = {counts / setup_.per_rad, received.stamp};
+  speed_radps_ = static_cast<double>(static_cast<std::int32_t>((*values)[1])) / setup_.per_rad;
   mode_ = static_cast<std::uint8_t>((*values)[2]);
-  fresh_status_ = true;
   unanswered_since_ = kNever;
+  return {.status = true, .trouble = mode_trouble(received.stamp)};
 }
 
 // The position wraps at 32 bits: the difference, as a signed number, is right across the wrap.
-void WheelAxis::take_position(const ReceivedFrame& received) noexcept {
+AxisNews WheelAxis::take_position(const CanFrame& frame) noexcept {
   has_twin_ = !positions_.take() || has_twin_;
-  const auto values = unpack(position_mapping_, received.frame);
-  if (!values) return;
+  const auto values = unpack(position_mapping_, frame);
+  if (!values) return {};
   const std::uint32_t raw = (*values)[0];
-  const std::int32_t counted = has_position_ ? static_cast<std::int32_t>(raw - raw_position_) : 0;
-  if (jumps(counted / setup_.per_rad, feedback_.speed_radps, to_seconds(age(placed_, received.stamp)))) {
-    restarted_ = true;
-    left_network_ = DriveTrouble::kDriveRestarted;
-  } else {
-    counts_ += counted;
-  }
-  raw_position_ = raw;
-  placed_ = received.stamp;
-  has_position_ = true;
-  fresh_position_ = true;
+  const auto counted = static_cast<std::int32_t>(raw - std::exchange(raw_position_, raw));
+  return {.turned_rad = counted / setup_.per_rad};
 }
 
-double WheelAxis::turned_rad() const noexcept { return static_cast<double>(counts_) / setup_.per_rad; }
+DriveTrouble WheelAxis::mode_trouble(Time stamp) noexcept {
+  if (!is_enabled()) {
+    enabled_ = kNever;
+    showed_mode_ = false;
+    return DriveTrouble::kNone;
+  }
+  if (enabled_ == kNever) enabled_ = stamp;
+  if (!follows_speeds() && showed_mode_) return DriveTrouble::kDriveRestarted;
+  showed_mode_ = follows_speeds();
+  return !showed_mode_ && stamp - enabled_ > showing_ ? DriveTrouble::kNotProved : DriveTrouble::kNone;
+}
 
-// A drive that restarted, or may have, counts from where it likes: its position goes on from the next that comes.
-bool WheelAxis::begin(Time heard, Time settled, bool heard_all) noexcept {
-  const bool counts_on = has_position_ && heard_all && !restarted_;
-  heard_ = heard;
-  settled_ = settled;
-  unanswered_since_ = kNever;
+void WheelAxis::begin() noexcept {
   state_ = DriveState::kUnknown;
-  feedback_ = {};
-  has_position_ = counts_on;
-  fresh_status_ = fresh_position_ = was_enabled_ = restarted_ = false;
-  resets_fault_ = true;
-  left_network_ = DriveTrouble::kNone;
+  unanswered_since_ = enabled_ = kNever;
+  showed_mode_ = false;
   heartbeats_ = statuses_ = positions_ = {};
   has_twin_ = false;
-  return counts_on;
 }
 
 void WheelAxis::note_sync(Time now) noexcept {
@@ -115,35 +109,9 @@ void WheelAxis::note_sync(Time now) noexcept {
   statuses_.expect(1.0), positions_.expect(1.0);
 }
 
-DriveTrouble WheelAxis::trouble(Time now, const AxisLimits& limits) noexcept {
-  if (left_network_ != DriveTrouble::kNone) return left_network_;
-  if (age(heard_, now) > limits.silence) return DriveTrouble::kDriveSilent;
-  if (unanswered_since_ != kNever && now - unanswered_since_ > limits.unanswered) return DriveTrouble::kDriveSilent;
-  const bool in_fault = state_ == DriveState::kFault || state_ == DriveState::kFaultReactionActive;
-  if (in_fault && now > settled_) return DriveTrouble::kDriveFault;
-  const bool was_enabled = was_enabled_ && goal_ == DriveGoal::kEnabled;  // it may leave operation where it is asked to
-  was_enabled_ = is_enabled();
-  if (!is_enabled()) return was_enabled ? DriveTrouble::kLeftOperation : DriveTrouble::kNone;
-  return mode_trouble(now, limits.showing, was_enabled);
-}
-
-DriveTrouble WheelAxis::mode_trouble(Time now, Duration showing, bool was_enabled) noexcept {
-  if (!was_enabled) {
-    enabled_ = now;
-    showed_mode_ = false;
-  }
-  if (follows_speeds()) {
-    showed_mode_ = true;
-    return DriveTrouble::kNone;
-  }
-  if (showed_mode_) return DriveTrouble::kDriveRestarted;
-  return now - enabled_ > showing ? DriveTrouble::kNotProved : DriveTrouble::kNone;
-}
-
 CanFrame WheelAxis::target(DriveGoal goal, double wanted_radps) noexcept {
   const std::uint16_t controlword = controlword_towards(goal, state_, resets_fault_);
   if (state_ != DriveState::kUnknown) resets_fault_ = false;
-  goal_ = goal;
   const std::int32_t target = to_counts(wanted_radps, setup_.per_rad);
   const std::array<std::uint32_t, 2> values{controlword, static_cast<std::uint32_t>(target)};
   return pack(command_mapping_, 0x200U + setup_.node, values).value_or(CanFrame{});

@@ -11,9 +11,9 @@
 namespace jaywalk::odrive {
 namespace {
 
-constexpr std::uint32_t kHeartbeat = 0x01, kEstop = 0x02, kGetError = 0x03, kWriteParameter = 0x04,
-                        kSetAxisState = 0x07, kEstimates = 0x09, kSetControllerMode = 0x0B, kSetInputVelocity = 0x0D,
-                        kReboot = 0x16, kClearErrors = 0x18, kUpdateMode = 0x1F;
+constexpr std::uint32_t kHeartbeat = 0x01, kEstop = 0x02, kWriteParameter = 0x04, kSetAxisState = 0x07,
+                        kEstimates = 0x09, kSetControllerMode = 0x0B, kSetInputVelocity = 0x0D, kReboot = 0x16,
+                        kClearErrors = 0x18, kUpdateMode = 0x1F;
 constexpr std::uint32_t kVelocityControl = 2, kPassThrough = 1, kVelocityRamp = 2;
 
 CanFrame command(std::uint8_t node, std::uint32_t number, std::uint8_t size, std::uint32_t first = 0,
@@ -82,10 +82,6 @@ std::optional<Message> decode(const CanFrame& frame) noexcept {
       const Heartbeat heartbeat{reader.little<std::uint32_t>(), reader.little<std::uint8_t>(),
                                 reader.little<std::uint8_t>()};
       return reader.ok() ? std::optional(Message{node, heartbeat}) : std::nullopt;
-    }
-    case kGetError: {
-      const Errors errors{reader.little<std::uint32_t>(), reader.little<std::uint32_t>()};
-      return reader.ok() ? std::optional(Message{node, errors}) : std::nullopt;
     }
     case kEstimates: return decode_estimates(node, reader);
     default: return std::nullopt;

@@ -10,7 +10,7 @@ namespace jaywalk::vesc {
 namespace {
 
 constexpr std::uint32_t kSetCurrent = 1, kSetBrakeCurrent = 2, kSetErpm = 3, kPiece = 5, kLongPiece = 6, kPiecesEnd = 7,
-                        kShort = 8, kStatus = 9, kStatus4 = 16, kStatus5 = 27;
+                        kShort = 8, kStatus = 9, kStatus5 = 27;
 // Commands inside messages 5 to 8 (COMM_GET_APPCONF, COMM_GET_VALUES_SELECTIVE), and the mask of the fault code.
 constexpr std::uint8_t kGetSettings = 17, kGetValues = 50;
 constexpr std::uint32_t kFaultCode = 1U << 15U;
@@ -25,13 +25,6 @@ CanFrame command(std::uint8_t controller, std::uint32_t number, std::int32_t val
 }
 
 std::int32_t word(wire::ByteReader& reader) noexcept { return static_cast<std::int32_t>(reader.big<std::uint32_t>()); }
-double half_word(wire::ByteReader& reader) noexcept { return static_cast<std::int16_t>(reader.big<std::uint16_t>()); }
-
-template <class Content>
-std::optional<Message> message_of(std::uint8_t controller, const Content& content,
-                                  const wire::ByteReader& reader) noexcept {
-  return reader.ok() ? std::optional(Message{controller, content}) : std::nullopt;
-}
 
 std::optional<Message> decode_piece(std::uint8_t to, wire::ByteReader reader, bool is_long) noexcept {
   Piece piece;
@@ -111,19 +104,15 @@ std::optional<Message> decode(const CanFrame& frame) noexcept {
   if (!frame.extended || frame.remote) return std::nullopt;
   const auto controller = static_cast<std::uint8_t>(frame.id & 0xFFU);
   wire::ByteReader reader(frame.payload());
-  // Braced lists are evaluated in the order written.
   switch (frame.id >> 8U) {
     case kPiece:
     case kLongPiece: return decode_piece(controller, reader, frame.id >> 8U == kLongPiece);
     case kPiecesEnd: return decode_end(controller, reader);
     case kShort: return decode_fault(controller, reader);
-    case kStatus:
-      return message_of(controller, Status{word(reader), half_word(reader) / 10.0, half_word(reader) / 1000.0}, reader);
-    case kStatus4:
-      return message_of(controller,
-                        Temperatures{half_word(reader) / 10.0, half_word(reader) / 10.0, half_word(reader) / 10.0},
-                        reader);
-    case kStatus5: return message_of(controller, Travel{word(reader), half_word(reader) / 10.0}, reader);
+    case kStatus:  // current and duty cycle follow
+      return frame.size < 8 ? std::nullopt : std::optional(Message{controller, Status{word(reader)}});
+    case kStatus5:  // the supply's voltage follows
+      return frame.size < 6 ? std::nullopt : std::optional(Message{controller, Travel{word(reader)}});
     default: return std::nullopt;
   }
 }

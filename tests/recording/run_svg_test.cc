@@ -1,7 +1,6 @@
-#include "apps/report/picture/run_svg.h"
-
 #include <regex>
 
+#include "apps/report/picture/picture.h"
 #include "apps/report/picture/run_layers.h"
 #include "apps/report/picture/scene.h"
 #include "hal/types/errors.h"
