@@ -24,7 +24,7 @@ void copy(FixedVector<T, N>& to, std::span<const T> from) noexcept {
   }
 }
 
-ShownMover shown(const motion::Futures& futures, std::size_t mover) noexcept {
+ShownMover shown_mover(const motion::Futures& futures, std::size_t mover) noexcept {
   ShownMover out{.radius_m = futures.radius(mover)};
   for (std::size_t step = 0; step < kShownSteps.size(); ++step) {
     const motion::MoverAt& at = futures.at(kShownSteps[step], mover);
@@ -66,7 +66,7 @@ void take(ViewSnapshot& into, const TickRecord& record, const ControlLoop& loop)
   const motion::Futures& futures = rollouts->futures();
   for (std::size_t mover = 0; mover < futures.movers(); ++mover) {
     if (futures.is_surface(mover)) continue;
-    if (!into.movers.push_back(shown(futures, mover))) break;
+    if (!into.movers.push_back(shown_mover(futures, mover))) break;
   }
 }
 
