@@ -1,6 +1,6 @@
 #pragma once
-// MCAP files (mcap.dev/spec): records of messages in chunks packed with zstd, each with an index, a summary at the end; and
-// a run as such a file.
+// MCAP files (mcap.dev/spec): records of messages in chunks packed with zstd, each with an index, a summary at the end;
+// and a run as such a file.
 #include <zlib.h>
 
 #include <cstdint>

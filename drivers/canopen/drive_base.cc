@@ -239,7 +239,10 @@ ProofResult CanopenDriveBase::continue_proof(std::size_t index) noexcept {
   if (!std::exchange(asks_, true))
     for (DriveProof& proof : proofs_) proof.begin(now);
   asked_ = now;
-  for (DriveProof& proof : proofs_) proof.poll(now), proof.poll(now);  // takes an answer, and asks what is next
+  for (DriveProof& proof : proofs_) {
+    proof.poll(now);                  // takes an answer, or asks what is next
+    if (is_armed()) proof.poll(now);  // a tick is longer than arming's steps: both
+  }
   for (const DriveProof& proof : proofs_)
     if (proof.state() != DriveProof::State::kPassed && proof.state() != DriveProof::State::kFailed)
       return ProofResult::kUnderWay;
