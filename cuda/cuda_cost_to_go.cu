@@ -48,15 +48,19 @@ struct Cells : Ends<field::CellSteps> {
   }
 };
 
-/// Widens a pose's cost, in which 16 bits are none of an atomic operation's, and puts it on the pile.
+/// A pose's rate. Where the body can be a given cost is widened, as 16 bits are none of an atomic operation's, and put
+/// on the pile.
 struct SowPose {
+  field::PoseRates rates;
   const std::uint16_t* given;
   std::uint32_t* cost;
   Piles piles;
 
   __device__ void operator()(std::int32_t pose) const {
-    cost[pose] = given[pose];
-    if (given[pose] != PoseGuide::kNoWay) piles.sow(pose, given[pose]);
+    rates(pose);
+    const std::uint32_t sown = rates.rate[pose] != 0 ? given[pose] : PoseGuide::kNoWay;
+    cost[pose] = sown;
+    if (sown != PoseGuide::kNoWay) piles.sow(pose, sown);
   }
 };
 struct ReapPose {
@@ -79,8 +83,10 @@ void launch_visits(CudaDevice& device, const Stage& stage, std::int32_t n) noexc
   device.launch(visit<Stage>, (n + kVisitThreads - 1) / kVisitThreads, kVisitThreads, stage, 1, n);
 }
 
+constexpr std::size_t kPoses = PoseLattice::kPoses, kRooms = 256;
+
 template <class T>
-void put_in(CudaDevice& device, const Shared<T>& to, const T* from, std::size_t n) noexcept {
+void copy_in(CudaDevice& device, const Shared<T>& to, const T* from, std::size_t n) noexcept {
   std::memcpy(to.host, from, n * sizeof(T));
   device.copy_in(to, n);
 }
@@ -91,10 +97,12 @@ CudaCostToGo::CudaCostToGo(int device, std::chrono::milliseconds limit, std::int
     : device_(device, limit),
       nodes_(device_.share<std::uint8_t>(kNodes)),
       radius_(device_.share<std::uint8_t>(kMostPoints)),
+      rate_of_room_(device_.share<std::uint8_t>(kRooms)),
       places_(device_.share<std::int32_t>(kLooks * kMostPoints)),
       room_(device_.share<std::uint8_t>(PoseLattice::kPoses)),
       shift_(device_.share<std::int8_t>(PoseLattice::kPoses)),
       pose_rate_(device_.share<std::uint8_t>(PoseLattice::kPoses)),
+      dearer_(device_.share<std::uint8_t>(PoseLattice::kPoses)),
       unseen_(device_.share<std::uint8_t>(PoseLattice::kPoses)),
       pose_cost_(device_.share<std::uint16_t>(PoseLattice::kPoses)),
       wide_cost_(device_.take<std::uint32_t>(PoseLattice::kPoses)),
@@ -105,24 +113,6 @@ CudaCostToGo::CudaCostToGo(int device, std::chrono::milliseconds limit, std::int
   piles_.told = told_.device;
 }
 
-bool CudaCostToGo::find(const field::PoseLook& look) noexcept {
-  constexpr std::int32_t kVisits = PoseLattice::kHeadings * PoseLattice::kSide * PoseLattice::kSide;
-  const auto points = static_cast<std::size_t>(look.points);
-  if (points > kMostPoints || !begins()) return false;
-  put_in(device_, nodes_, look.nodes, kNodes);
-  put_in(device_, places_, look.places, kLooks * points);
-  put_in(device_, radius_, look.radius, points);
-  const field::PoseLook on_device{nodes_.device, places_.device, radius_.device,
-                                  look.points,   room_.device,   shift_.device};
-  launch_visits(device_, on_device, kVisits);
-  device_.copy_out(room_, PoseLattice::kPoses), device_.copy_out(shift_, PoseLattice::kPoses);
-  if (!device_.wait()) return false;
-  std::memcpy(look.room, room_.host, PoseLattice::kPoses);
-  std::memcpy(look.shift, shift_.host, PoseLattice::kPoses);
-  return true;
-}
-
-/// False: the device failed, or a pile was full.
 template <class Graph, class T>
 bool CudaCostToGo::read_settled(const Graph& graph, const Shared<T>& settled, std::size_t n) noexcept {
   device_.launch(settle_piles<Graph>, 1, kPileThreads, graph, piles_);
@@ -133,18 +123,37 @@ bool CudaCostToGo::read_settled(const Graph& graph, const Shared<T>& settled, st
   return device_.wait() && told_.host->full == 0;
 }
 
-bool CudaCostToGo::settle(const field::PoseCosts& poses) noexcept {
-  constexpr std::size_t kPoses = PoseLattice::kPoses;
-  if (!begins()) return false;
-  put_in(device_, pose_rate_, poses.steps.rate, kPoses);
-  if (poses.steps.unseen != nullptr) put_in(device_, unseen_, poses.steps.unseen, kPoses);
-  put_in(device_, pose_cost_, poses.cost, kPoses);
-  put_in(device_, moves_, poses.steps.moves, 1);
+void CudaCostToGo::put_in(const field::PoseCosts& poses) noexcept {
+  const auto points = static_cast<std::size_t>(poses.look.points);
+  copy_in(device_, nodes_, poses.look.nodes, kNodes);
+  copy_in(device_, places_, poses.look.places, kLooks * points);
+  copy_in(device_, radius_, poses.look.radius, points);
+  copy_in(device_, rate_of_room_, poses.rates.of_room, kRooms);
+  if (poses.rates.dearer != nullptr) copy_in(device_, dearer_, poses.rates.dearer, kPoses);
+  if (poses.steps.unseen != nullptr) copy_in(device_, unseen_, poses.steps.unseen, kPoses);
+  copy_in(device_, pose_cost_, poses.cost, kPoses);
+  copy_in(device_, moves_, poses.steps.moves, 1);
   device_.set_bytes(told_.device, 0, 1);
-  launch_visits(device_, SowPose{pose_cost_.device, wide_cost_, piles_}, PoseLattice::kPoses);
+}
+
+bool CudaCostToGo::settle(const field::PoseCosts& poses) noexcept {
+  constexpr std::int32_t kCellPoses = PoseLattice::kHeadings * PoseLattice::kSide * PoseLattice::kSide;
+  if (static_cast<std::size_t>(poses.look.points) > kMostPoints || !begins()) return false;
+  put_in(poses);
+  const field::PoseLook look{nodes_.device,     places_.device, radius_.device,
+                             poses.look.points, room_.device,   shift_.device};
+  const field::PoseRates rates{rate_of_room_.device, poses.rates.dearest,
+                               room_.device,         poses.rates.dearer == nullptr ? nullptr : dearer_.device,
+                               poses.robot,          pose_rate_.device};
+  launch_visits(device_, look, kCellPoses);
+  launch_visits(device_, SowPose{rates, pose_cost_.device, wide_cost_, piles_}, PoseLattice::kPoses);
+  device_.copy_out(room_, kPoses), device_.copy_out(shift_, kPoses), device_.copy_out(pose_rate_, kPoses);
   const Poses graph{{{wide_cost_, 1}, poses.robot, poses.beyond},
                     {moves_.device, pose_rate_.device, poses.steps.unseen == nullptr ? nullptr : unseen_.device}};
   if (!read_settled(graph, pose_cost_, kPoses)) return false;
+  std::memcpy(poses.look.room, room_.host, kPoses);
+  std::memcpy(poses.look.shift, shift_.host, kPoses);
+  std::memcpy(poses.rates.rate, pose_rate_.host, kPoses);
   std::memcpy(poses.cost, pose_cost_.host, kPoses * sizeof *poses.cost);
   return true;
 }
@@ -152,7 +161,7 @@ bool CudaCostToGo::settle(const field::PoseCosts& poses) noexcept {
 bool CudaCostToGo::settle(const field::CellCosts& cells) noexcept {
   const std::size_t n = field::CellGraph::size_for(cells.side);
   if (!begins()) return false;
-  put_in(device_, cells_, cells.nodes, n);
+  copy_in(device_, cells_, cells.nodes, n);
   device_.set_bytes(told_.device, 0, 1);
   launch_visits(device_, SowCell{cells_.device, piles_}, static_cast<std::int32_t>(n));
   const Cells graph{{{&cells_.device->cost, 2}, cells.robot, cells.beyond},

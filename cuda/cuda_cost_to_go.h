@@ -18,11 +18,12 @@ class CudaCostToGo final : public field::CostSettler {
   [[nodiscard]] const char* name() const noexcept override { return "cuda"; }
   [[nodiscard]] bool settle(const field::PoseCosts& poses) noexcept override;
   [[nodiscard]] bool settle(const field::CellCosts& cells) noexcept override;
-  [[nodiscard]] bool find(const field::PoseLook& look) noexcept override;
   /// Of the last settlement.
   [[nodiscard]] const Piles::Told& told() const noexcept { return *told_.host; }
 
  private:
+  void put_in(const field::PoseCosts& poses) noexcept;
+  /// False: the device failed, or a pile was full.
   template <class Graph, class T>
   [[nodiscard]] bool read_settled(const Graph& graph, const Shared<T>& settled, std::size_t n) noexcept;
 
@@ -33,11 +34,11 @@ class CudaCostToGo final : public field::CostSettler {
   static constexpr std::size_t kNodes = static_cast<std::size_t>(field::PoseLook::kNodes) * field::PoseLook::kNodes;
   static constexpr std::size_t kMostPoints = 256, kLooks = PoseLattice::kHeadings * field::PoseLook::kSides;
 
-  Shared<std::uint8_t> nodes_, radius_;
+  Shared<std::uint8_t> nodes_, radius_, rate_of_room_;
   Shared<std::int32_t> places_;
   Shared<std::uint8_t> room_;
   Shared<std::int8_t> shift_;
-  Shared<std::uint8_t> pose_rate_, unseen_;
+  Shared<std::uint8_t> pose_rate_, dearer_, unseen_;
   Shared<std::uint16_t> pose_cost_;
   std::uint32_t* wide_cost_;  ///< of poses, while they are settled
   Shared<field::BackMoves> moves_;

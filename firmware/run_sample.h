@@ -13,6 +13,7 @@
 
 #include "firmware/recording/tick_record.h"
 #include "hal/types/geometry.h"
+#include "hal/types/social_measures.h"
 #include "hal/types/time.h"
 #include "planner/cost_to_go/planner.h"
 #include "planner/tracking/track.h"
@@ -73,6 +74,7 @@ struct TrueState {
   std::uint32_t contacts = 0;
   std::uint32_t contacts_caused = 0;
   std::uint32_t forced_movers = 0;
+  SocialMeasures social = {};
 };
 
 /// One tick, seen from outside the loop. Everything referred to outlives the call only.

@@ -129,11 +129,6 @@ std::string digest_of_file(const std::filesystem::path& file) {
 namespace {
 
 using Json = nlohmann::ordered_json;
-constexpr std::array kFigures{"path_length_m",   "static_shortest_path_m", "duration_s",
-                              "min_clearance_m", "min_mover_clearance_m",  "forced_movers",
-                              "contacts",        "contacts_caused",        "max_turn_deg",
-                              "loops",           "accel_max_mps2",         "jerk_p99_mps3",
-                              "jerk_max_mps3",   "granted_share",          "detour_m"};
 
 /// The program's last error line, without the path of the run's folder: that path differs between shards.
 std::string last_words(const std::filesystem::path& folder) {
@@ -155,8 +150,8 @@ RunResult without_run(const std::filesystem::path& folder, const std::string& ou
 }
 
 void add_figures(const Json& summary, const std::filesystem::path& folder, RunResult& result) {
-  for (const char* name : kFigures)
-    if (summary.contains(name) && summary[name].is_number()) result.figures[name] = summary[name].get<double>();
+  for (const auto& [name, value] : summary.items())
+    if (value.is_number()) result.figures[name] = value.get<double>();
   result.turns = summary.at("turn_histogram").get<std::array<std::uint32_t, kTurnBins>>();
   const Ride ride = ride_of(folder / "robot.csv");
   result.figures["steering_reversals"] = ride.steering_reversals;

@@ -84,14 +84,16 @@ std::vector<std::string> success_row(const ReportedRow& row) {
           std::to_string(clear),
           std::to_string(count_if(runs, [](const RunResult& r) { return r.figure("contacts_caused") > 0.0; })),
           fixed(sum_of(values_of(runs, plain("forced_movers"))), 0),
+          fixed(sum_of(values_of(runs, plain("faults"))), 0),
           std::to_string(count_if(runs, [](const RunResult& r) { return r.figure("loops") > 0.0; }))};
 }
 
 ReportTable success_table(const ReportedTables& tables) {
-  ReportTable table{"Success",
-                    {"", "success", "share (95 %)", "forced a mover", "collision", "timeout", "fault", "did not run",
-                     "contact-free", "touched while driving", "movers made to turn", "runs with a loop"},
-                    {}};
+  ReportTable table{
+      "Success",
+      {"", "success", "share (95 %)", "forced a mover", "collision", "timeout", "fault", "did not run", "contact-free",
+       "touched while driving", "movers made to turn", "stops by faults", "runs with a loop"},
+      {}};
   for (const ReportedRow& row : tables.rows) table.rows.push_back(success_row(row));
   return table;
 }
@@ -118,12 +120,27 @@ std::vector<RideFigure> ride_figures() {
           {"nearest to a mover, m (5th, least)", plain("min_mover_clearance_m"), 2, true}};
 }
 
-ReportTable ride_table(const ReportedTables& tables) {
-  ReportTable table{"The ride, of runs that arrived: median / 95th percentile / largest", {""}, {}};
-  for (const RideFigure& figure : ride_figures()) table.head.emplace_back(figure.name);
+/// HuNavSim's measures (hal/types/social_measures.h).
+std::vector<RideFigure> people_figures() {
+  return {{"in intimate space, s", plain("intimate_s"), 1},
+          {"in personal space, s", plain("personal_s"), 1},
+          {"way that people lost, m", plain("slowed_m"), 1},
+          {"turning of people, rad", plain("turned_rad"), 1}};
+}
+
+bool has_social_movers(const ReportedTables& tables) {
+  return std::ranges::any_of(tables.rows, [](const ReportedRow& row) {
+    return count_if(row.runs, [](const RunResult& r) { return r.figure("slowed_m") > 0.0; }) > 0;
+  });
+}
+
+/// Median, 95th percentile and largest of runs that arrived.
+ReportTable figure_table(const ReportedTables& tables, const char* title, const std::vector<RideFigure>& figures) {
+  ReportTable table{title, {""}, {}};
+  for (const RideFigure& figure : figures) table.head.emplace_back(figure.name);
   for (const ReportedRow& row : tables.rows) {
     std::vector<std::string> cells{row.name};
-    for (const RideFigure& figure : ride_figures()) {
+    for (const RideFigure& figure : figures) {
       const std::vector<double> values = values_of(row.runs, of_arrived(figure.of));
       const double rare = figure.less_is_worse ? 0.05 : 0.95, worst = figure.less_is_worse ? 0.0 : 1.0;
       cells.push_back(fixed(median(values), figure.digits) + " / " + fixed(quantile(values, rare), figure.digits) +
@@ -238,7 +255,11 @@ std::vector<ReportTable> tables_of(const ReportedTables& tables) {
   const bool few = tables.experiment->scenarios.size() <= kMostColumns;
   std::vector<ReportTable> all{success_table(tables)};
   if (few) all.push_back(by_scenario(tables, "Success by scenario", success_cell));
-  all.push_back(ride_table(tables));
+  all.push_back(
+      figure_table(tables, "The ride, of runs that arrived: median / 95th percentile / largest", ride_figures()));
+  if (has_social_movers(tables))
+    all.push_back(
+        figure_table(tables, "People, in runs that arrived: median / 95th percentile / largest", people_figures()));
   if (few) all.push_back(by_scenario(tables, "Path length by scenario, m, mean of runs that arrived", length_cell));
   all.push_back(turn_table(tables));
   for (ReportTable& table : stick_table(tables)) all.push_back(std::move(table));

@@ -101,7 +101,8 @@ class TruthForReport {
               .mover_clearance_m = truth.mover_clearance_m,
               .contacts = truth.contacts,
               .contacts_caused = truth.contacts_caused,
-              .forced_movers = truth.forced_movers};
+              .forced_movers = truth.forced_movers,
+              .social = truth.social};
     return state_;
   }
 

@@ -209,7 +209,15 @@ void RunReport::add(const RunSample& sample) {
   add_way(pose, sample);
   if (sample.truth != nullptr) add_truth(*sample.truth, now);
   granted_.add(sample.record);
+  add_faults(sample.record.verdict.reasons);
   add_tracks(sample);
+}
+
+void RunReport::add_faults(Reason reasons) {
+  constexpr Reason kStoppedBy = of_kind(ReasonKind::kFault) | kAlwaysLatched;
+  const bool is_faulty = has(reasons, kStoppedBy) && !has(reasons, Reason::kEmergencyStop);
+  if (is_faulty && !is_faulty_) ++faults_;
+  is_faulty_ = is_faulty;
 }
 
 void RunReport::add_plan(const PlanTook& took) {
@@ -238,6 +246,7 @@ void RunReport::add_truth(const TrueState& truth, Time now) {
   contacts_ = truth.contacts;
   contacts_caused_ = truth.contacts_caused;
   forced_movers_ = truth.forced_movers;
+  social_ = truth.social;
   for (const TrueMover& mover : truth.movers) {
     movers_.add(mover.id, now, mover.position_in_map, mover.radius_m, mover.forced);
   }
@@ -282,6 +291,10 @@ std::string RunReport::summary(const RunEnd& end) const {
   j["forced_movers"] = known(has_truth_, forced_movers_);
   j["contacts"] = known(has_truth_, contacts_);
   j["contacts_caused"] = known(has_truth_, contacts_caused_);
+  j["intimate_s"] = known(has_truth_, social_.intimate_s);
+  j["personal_s"] = known(has_truth_, social_.personal_s);
+  j["slowed_m"] = known(has_truth_, social_.slowed_m);
+  j["turned_rad"] = known(has_truth_, social_.turned_rad);
   j["max_turn_deg"] = shape_.max_turn_deg();
   j["turn_histogram"] = shape_.turn_histogram();
   j["turn_bin_deg"] = kTurnBinDeg;
@@ -295,6 +308,7 @@ std::string RunReport::summary(const RunEnd& end) const {
   j["granted_share"] = granted_.mean();
   j["steered_s"] = granted_.steered_s();
   j["ticks"] = ticks_;
+  j["faults"] = faults_;
   j["missed_ticks"] = end.missed_ticks;
   j["dropped_records"] = end.dropped_records;
   j["not_recorded"] = all_complaints(complaints(), end.not_recorded);

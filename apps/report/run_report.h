@@ -98,6 +98,7 @@ class RunReport {
   void turn_to_next_tables();
   void add_truth(const TrueState& truth, Time now);
   void add_tracks(const RunSample& sample);
+  void add_faults(Reason reasons);
   void add_plan(const PlanTook& took);
   void add_way(const Pose2& pose, const RunSample& sample);
   [[nodiscard]] std::string summary(const RunEnd& end) const;
@@ -115,11 +116,13 @@ class RunReport {
   GrantedShare granted_;
   LoopCount loops_;
   std::optional<DetourCount> detours_;  ///< where the loop's own thread reports
-  std::uint64_t ticks_ = 0;
+  std::uint64_t ticks_ = 0, faults_ = 0;
+  bool is_faulty_ = false;  ///< in the last tick
   Time first_ = kNever, last_ = kNever;
   bool has_truth_ = false;
   double min_clearance_m_, min_mover_clearance_m_;
   std::uint32_t contacts_ = 0, contacts_caused_ = 0, forced_movers_ = 0;
+  SocialMeasures social_;
 };
 
 }  // namespace jaywalk

@@ -15,6 +15,7 @@ class Crowd {
   /// The laser's view and the wheels' angles at scan `k` from 0, 15 a second.
   void at(std::uint32_t k, LaserScan& scan, WheelState& wheels);
   [[nodiscard]] const RobotModel& model() const { return model_; }
+  [[nodiscard]] const sim::Walls& walls() const { return walls_; }
   [[nodiscard]] Pose2 start() const;
 
  private:

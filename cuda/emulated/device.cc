@@ -151,9 +151,9 @@ cudaError_t cudaEventRecord(cudaEvent_t event, cudaStream_t) {
 }
 cudaError_t cudaEventQuery(cudaEvent_t event) {
   return call([&] {
-    if (has_run(event->place)) return cudaSuccess;
-    if (d.not_ready > 0) return --d.not_ready, cudaErrorNotReady;
-    return run_to(event->place) ? cudaSuccess : cudaErrorNotReady;
+    if (!has_run(event->place) && d.not_ready > 0) return --d.not_ready, cudaErrorNotReady;
+    if (!has_run(event->place) && !run_to(event->place)) return cudaErrorNotReady;
+    return ++d.counts.waits, cudaSuccess;
   });
 }
 cudaError_t cudaEventSynchronize(cudaEvent_t event) {

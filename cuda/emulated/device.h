@@ -26,9 +26,9 @@ enum class Fault : std::uint8_t {
   kHangs,    ///< it never ends
 };
 
-/// Launches that have run, and barriers of their blocks that have opened.
+/// Launches that have run, barriers of their blocks that have opened, and waits for an event that were over.
 struct Counts {
-  std::int64_t launches = 0, block = 0;
+  std::int64_t launches = 0, block = 0, waits = 0;
 };
 
 /// All streams share one queue: work runs in the order of the calls.

@@ -81,12 +81,14 @@ std::vector<std::filesystem::path> files_of_map(MapKind kind, const std::filesys
   return {file, picture_of_raster_map(file)};
 }
 
-double distance(Vec2 p, const WallSegment& segment) noexcept {
+Vec2 nearest_point(Vec2 p, const WallSegment& segment) noexcept {
   const Vec2 along = segment.to - segment.from;
   const double length2 = dot(along, along);
   const double share = length2 > 0.0 ? std::clamp(dot(p - segment.from, along) / length2, 0.0, 1.0) : 0.0;
-  return norm(segment.from + along * share - p);
+  return segment.from + along * share;
 }
+
+double distance(Vec2 p, const WallSegment& segment) noexcept { return distance(p, nearest_point(p, segment)); }
 
 double hit_range(Vec2 from, Vec2 direction, const WallSegment& segment) noexcept {
   // from + range d = segment.from + share e, solved by crossing both sides with e and with d.

@@ -19,6 +19,8 @@ struct Disc {
   double radius_m = 0.0;
 };
 
+/// Nearest point of a segment.
+[[nodiscard]] Vec2 nearest_point(Vec2 p, const WallSegment& segment) noexcept;
 /// Distance (m) from a point to a segment.
 [[nodiscard]] double distance(Vec2 p, const WallSegment& segment) noexcept;
 

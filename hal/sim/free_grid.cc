@@ -143,7 +143,7 @@ std::vector<Vec2> FreeGrid::cell_path() const {
   return path;
 }
 
-bool FreeGrid::line_is_free(Vec2 from, Vec2 to) const {
+bool FreeGrid::line_is_free(Vec2 from, Vec2 to) const noexcept {
   const auto samples = static_cast<int>(distance(from, to) / (0.5 * cell_m_)) + 1;
   for (int k = 0; k <= samples; ++k)
     if (!free(from + (to - from) * (static_cast<double>(k) / samples))) return false;

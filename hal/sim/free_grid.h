@@ -19,6 +19,8 @@ class FreeGrid {
   [[nodiscard]] bool free(Vec2 p) const noexcept;
   /// True where the circle can get from the start.
   [[nodiscard]] bool reachable(Vec2 p) const noexcept;
+  /// True where the circle can go straight.
+  [[nodiscard]] bool line_is_free(Vec2 from, Vec2 to) const noexcept;
   /// Length (m) of the shortest way from start to goal, infinity when there is none: a shortest path over the eight
   /// neighbours, pulled straight. Within 1 % of the true one, tested. Allocates.
   [[nodiscard]] double shortest_path_m() const;
@@ -36,7 +38,6 @@ class FreeGrid {
   void for_each_neighbour(std::int32_t index, Visit&& visit) const;
   void flood_from_start();
   [[nodiscard]] std::vector<Vec2> cell_path() const;
-  [[nodiscard]] bool line_is_free(Vec2 from, Vec2 to) const;
   [[nodiscard]] std::vector<Vec2> pulled(const std::vector<Vec2>& path) const;
 
   Vec2 start_, goal_;

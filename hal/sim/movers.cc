@@ -57,42 +57,43 @@ std::vector<Row> read_rows(const std::filesystem::path& file) {
   return rows;
 }
 
+bool has_room(Vec2 p, const Ground& ground, double radius_m, std::span<const MoverTruth> placed) {
+  const double to_walls = radius_m + kRoomToWalls;
+  if (distance(p, ground.scenario.start.position()) < kRoomToRobot + radius_m) return false;
+  if (distance(p, ground.scenario.goal) < kRoomToGoal + radius_m) return false;
+  for (const MoverTruth& other : placed)
+    if (distance(p, other.position) < radius_m + other.radius_m + kRoomToMovers) return false;
+  return ground.grid.reachable(p) && ground.walls.distance(p, to_walls) >= to_walls;
+}
+
 }  // namespace
 
-Wanderers::Wanderers(const Scenario& scenario, const Walls& walls, const FreeGrid& grid, std::uint64_t seed)
-    : walls_(walls) {
-  Random random(seed, Purpose::kPlacement);
-  for (const WanderSpec& spec : scenario.wanderers)
-    for (int k = 0; k < spec.count; ++k) place(spec, scenario, grid, seed, random);
-}
-
-bool Wanderers::has_room(Vec2 p, double radius_m, const Scenario& scenario, const FreeGrid& grid) const {
-  const double to_walls = radius_m + kRoomToWalls;
-  if (distance(p, scenario.start.position()) < kRoomToRobot + radius_m) return false;
-  if (distance(p, scenario.goal) < kRoomToGoal + radius_m) return false;
-  for (const MoverTruth& other : movers_)
-    if (distance(p, other.position) < radius_m + other.radius_m + kRoomToMovers) return false;
-  return grid.reachable(p) && walls_.distance(p, to_walls) >= to_walls;
-}
-
-void Wanderers::place(const WanderSpec& spec, const Scenario& scenario, const FreeGrid& grid, std::uint64_t seed,
-                      Random& random) {
-  const auto& [low, high] = walls_.bounds();
-  const auto id = static_cast<std::uint32_t>(movers_.size() + 1);
+Vec2 free_place(const Ground& ground, const Box& within, double radius_m, std::span<const MoverTruth> placed,
+                Random& random) {
   for (int k = 0; k < kPlacements; ++k) {
-    const double x = random.uniform(low.x, high.x), y = random.uniform(low.y, high.y);
-    if (!has_room({x, y}, spec.radius_m, scenario, grid)) continue;
-    const double heading = random.uniform(-kPi, kPi);
-    movers_.push_back(
-        {.id = id, .position = {x, y}, .heading = heading, .radius_m = spec.radius_m, .on_legs = spec.legs});
-    minds_.push_back({.speed_mps = spec.speed_mps,
-                      .turn_rate_radps = spec.turn_rate_radps,
-                      .spontaneous_turns_hz = spec.spontaneous_turns_hz,
-                      .random = Random(seed, Purpose::kWanderer, id)});
-    return;
+    const double x = random.uniform(within.low.x, within.high.x), y = random.uniform(within.low.y, within.high.y);
+    if (has_room({x, y}, ground, radius_m, placed)) return {x, y};
   }
-  throw StartupError(scenario.map_file.string() + ": no room for mover " + std::to_string(id),
+  throw StartupError(ground.scenario.map_file.string() + ": no room for mover " + std::to_string(placed.size() + 1),
                      "ask for fewer or smaller movers");
+}
+
+Wanderers::Wanderers(const Ground& ground, std::uint64_t seed) : walls_(ground.walls) {
+  Random random(seed, Purpose::kPlacement);
+  for (const WanderSpec& spec : ground.scenario.wanderers)
+    for (int k = 0; k < spec.count; ++k) place(spec, ground, seed, random);
+}
+
+void Wanderers::place(const WanderSpec& spec, const Ground& ground, std::uint64_t seed, Random& random) {
+  const auto id = static_cast<std::uint32_t>(movers_.size() + 1);
+  const Vec2 position = free_place(ground, walls_.bounds(), spec.radius_m, movers_, random);
+  const double heading = random.uniform(-kPi, kPi);
+  movers_.push_back(
+      {.id = id, .position = position, .heading = heading, .radius_m = spec.radius_m, .on_legs = spec.legs});
+  minds_.push_back({.speed_mps = spec.speed_mps,
+                    .turn_rate_radps = spec.turn_rate_radps,
+                    .spontaneous_turns_hz = spec.spontaneous_turns_hz,
+                    .random = Random(seed, Purpose::kWanderer, id)});
 }
 
 Wanderers::Blocker Wanderers::ahead(std::size_t self, double heading, const Surroundings& near) const noexcept {

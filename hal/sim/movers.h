@@ -12,13 +12,25 @@
 
 namespace jaywalk::sim {
 
+/// World in which movers are placed.
+struct Ground {
+  const Scenario& scenario;
+  const Walls& walls;
+  const FreeGrid& grid;
+};
+
+/// Returns a random place in `within` that leaves room to walls, start, goal and the movers `placed`. Throws
+/// StartupError where there is none.
+[[nodiscard]] Vec2 free_place(const Ground& ground, const Box& within, double radius_m,
+                              std::span<const MoverTruth> placed, Random& random);
+
 /// All wandering movers of a scenario. When a wall, another mover or the robot lies in a mover's zone (kWanderZone), it
 /// stops, turns in place to a random heading whose zone is free, and walks again. It is forced when the robot, and
 /// neither wall nor mover, made it turn.
 class Wanderers {
  public:
-  /// Places them at random where `grid` is reachable. Throws StartupError when there is no room. `walls` outlives this.
-  Wanderers(const Scenario& scenario, const Walls& walls, const FreeGrid& grid, std::uint64_t seed);
+  /// Places them at random. Throws StartupError when there is no room. The ground's walls outlive this.
+  Wanderers(const Ground& ground, std::uint64_t seed);
 
   /// Moves all on by `step_s`. `others` are movers that do not wander.
   void step(double step_s, const RobotBody& robot, std::span<const MoverTruth> others) noexcept;
@@ -43,9 +55,7 @@ class Wanderers {
     std::span<const MoverTruth> others;
   };
 
-  void place(const WanderSpec& spec, const Scenario& scenario, const FreeGrid& grid, std::uint64_t seed,
-             Random& random);
-  [[nodiscard]] bool has_room(Vec2 p, double radius_m, const Scenario& scenario, const FreeGrid& grid) const;
+  void place(const WanderSpec& spec, const Ground& ground, std::uint64_t seed, Random& random);
   [[nodiscard]] Blocker ahead(std::size_t self, double heading, const Surroundings& near) const noexcept;
   [[nodiscard]] Blocker touched(std::size_t self, Vec2 next, const Surroundings& near) const noexcept;
   void walk(std::size_t self, double step_s, const Surroundings& near) noexcept;

@@ -26,6 +26,18 @@ struct WanderSpec {
   bool legs = false;
 };
 
+/// Reactions of a social mover to the robot, in the order of the scenario's words (social_walkers.h).
+enum class Reaction : std::uint8_t { kRegular, kSurprised, kCurious, kAfraid, kHurried, kMixed };
+
+struct SocialSpec {
+  int count = 0;
+  double speed_mps = 1.34;
+  double radius_m = 0.25;
+  int group = 1;  ///< so many walk together
+  Reaction reaction = Reaction::kRegular;
+  bool legs = false;
+};
+
 struct RecordedSpec {
   std::filesystem::path file;
   double radius_m = 0.25;
@@ -133,6 +145,7 @@ struct Scenario {
   std::vector<MapZone> zones;
   std::vector<WanderSpec> wanderers;
   std::vector<RecordedSpec> recorded;
+  std::vector<SocialSpec> social;
   std::vector<FaultSpec> faults;
 };
 

@@ -105,6 +105,17 @@ const BoundKeys<WanderSpec> kWanderKeys(
                                  "turns for no reason, a second of walking"),
                       boolean_row("legs", &WanderSpec::legs, kLegs)});
 
+const BoundKeys<SocialSpec> kSocialKeys(
+    "movers:social", {whole_row("count", {0.0, 500.0}, "", kNeeded, "how many"),
+                      number_row("speed_mps", &SocialSpec::speed_mps, {0.1, 3.0}, "m/s",
+                                 "mean of the wished speeds, which differ by 19 %"),
+                      number_row("radius_m", &SocialSpec::radius_m, kRadius, "m", "of the disc"),
+                      whole_row("group", &SocialSpec::group, {1.0, 10.0}, "", "so many walk together"),
+                      choice_row("reaction", "regular", "what the sight of the robot does; mixed: each in turn",
+                                 // in the order of Reaction
+                                 {"regular", "surprised", "curious", "afraid", "hurried", "mixed"}),
+                      boolean_row("legs", &SocialSpec::legs, kLegs)});
+
 const BoundKeys<RecordedSpec> kRecordedKeys(
     "movers:recorded",
     {key_row("file", kFile, kNeeded, "rows of t_s,id,x_m,y_m below a line that says so"),
@@ -236,12 +247,22 @@ RecordedSpec read_recorded(TomlTable& table) {
   return spec;
 }
 
+SocialSpec read_social(TomlTable& table) {
+  SocialSpec spec{.count = static_cast<int>(table.integer("count"))};
+  if (table.has("reaction")) spec.reaction = static_cast<Reaction>(table.choice("reaction"));
+  kSocialKeys.read(table, spec);
+  return spec;
+}
+
 void read_movers(TomlTable& table, Scenario& scenario) {
-  if (table.choose_keys("kind") == 0) {
+  const std::size_t kind = table.choose_keys("kind");
+  if (kind == 0) {
     scenario.wanderers.push_back({.count = static_cast<int>(table.integer("count"))});
     kWanderKeys.read(table, scenario.wanderers.back());
-  } else {
+  } else if (kind == 1) {
     scenario.recorded.push_back(read_recorded(table));
+  } else {
+    scenario.social.push_back(read_social(table));
   }
   table.finish();
 }
@@ -283,10 +304,12 @@ const FileKeys& scenario_keys() {
                     {key_row("file", kFile, kNeeded, "rows of t_s,forward,left below a line that says so")}),
        section_keys("stick:straight", kPushKeys),
        section_keys("stick:to_goal", kPushKeys),
-       section_keys("movers",
-                    {choice_row("kind", kNeeded, "walk about, or walk as somebody once did", {"wander", "recorded"})}),
+       section_keys("movers", {choice_row("kind", kNeeded,
+                                          "walk about, walk as somebody once did, or react to each other and the robot",
+                                          {"wander", "recorded", "social"})}),
        kWanderKeys.keys(),
        kRecordedKeys.keys(),
+       kSocialKeys.keys(),
        kFaultKeys,
        kLostBeamsKeys,
        section_keys("faults:carried",

@@ -141,7 +141,8 @@ std::string Simulation::mover_rule() {
   return "wandering: straight at constant speed; when a wall, another mover or the robot lies within 0.5 m ahead of "
          "its edge and within 45 degrees of its heading it stops, turns in place (1 rad/s unless the scenario says "
          "otherwise) to a random heading whose zone is free, and walks on; forced when the robot alone lies there. "
-         "recorded: never reacts; forced when the robot lies within 0.4 m ahead of its edge and within 45 degrees";
+         "recorded: never reacts; forced when the robot lies within 0.4 m ahead of its edge and within 45 degrees. "
+         "social: by the social force of Helbing and Molnar 1995 and HuNavSim's reactions; forced as recorded ones";
 }
 
 }  // namespace jaywalk::sim

@@ -9,6 +9,7 @@
 #include "hal/hal.h"
 #include "hal/maps/wall_map.h"
 #include "hal/sim/scenario.h"
+#include "hal/types/social_measures.h"
 
 namespace jaywalk::sim {
 
@@ -34,6 +35,7 @@ struct Truth {
   std::uint32_t contacts = 0;         ///< episodes of touching so far
   std::uint32_t contacts_caused = 0;  ///< those begun while any point of the outline moved faster than 0.05 m/s
   std::uint32_t forced_movers = 0;    ///< so far
+  SocialMeasures social;
 };
 
 class Simulation {

@@ -26,6 +26,8 @@ double left_ahead(double steps) {
 
 constexpr double kCausedSpeed = 0.05;  // m/s of any point of the outline: a contact at more is the robot's doing
 constexpr double kApartAgain = 0.01;   // m: an episode of touching ends at this gap
+constexpr double kIntimate_m = 0.45;   // HuNavSim's indicator functions, after Hall 1966
+constexpr double kPersonal_m = 1.2;    // the same
 constexpr double kOpenGround = 50.0;   // m round the walls; what lies farther out is a slip of unit or origin
 
 bool off_the_map(const Box& walls, Vec2 p) {
@@ -53,9 +55,11 @@ World::World(const Scenario& scenario, std::uint64_t seed)
       walls_(load_wall_map(scenario.map_kind, scenario.map_file)),
       grid_(walls_, footprint_.inscribed_radius_m(), with_free_places(scenario).start.position(), scenario.goal),
       plant_(scenario.model, scenario.start, seed, scenario.slip, scenario.truth),
-      wanderers_(scenario, walls_, grid_, seed),
-      recorded_(scenario.recorded, static_cast<std::uint32_t>(wanderers_.movers().size())) {
-  movers_.reserve(wanderers_.movers().size() + recorded_.capacity());
+      wanderers_({scenario, walls_, grid_}, seed),
+      recorded_(scenario.recorded, static_cast<std::uint32_t>(wanderers_.movers().size())),
+      social_({scenario, walls_, grid_}, seed,
+              static_cast<std::uint32_t>(wanderers_.movers().size() + recorded_.capacity()), wanderers_.movers()) {
+  movers_.reserve(wanderers_.movers().size() + recorded_.capacity() + social_.movers().size());
   legs_.resize(movers_.capacity());
   seen_.reserve(2 * movers_.capacity());
   truth_.now = Time{};
@@ -115,28 +119,44 @@ double World::outline_mps() const noexcept {
                turn * std::max(footprint_.front_m, footprint_.rear_m)});
 }
 
-/// Walls and wandering movers stop the robot. The outline moves at most as far as the middle plus the turn times the
-/// outermost point's radius; until that has used up the last exact gap there is nothing to check.
+double World::gap_to_solid_mover() const noexcept {
+  return std::min(gap_to(wanderers_.movers()), gap_to(social_.movers()));
+}
+
+/// Walls, wandering and social movers stop the robot. The outline moves at most as far as the middle plus the turn
+/// times the outermost point's radius; until that has used up the last exact gap there is nothing to check.
 void World::keep_out_of_solids(const Pose2& before) noexcept {
   const Pose2& after = plant_.map_from_robot();
   const double turned = std::fabs(wrap_angle(after.heading - before.heading));
   slack_m_ -= distance(before.position(), after.position()) + turned * footprint_.circumscribed_radius_m();
   if (slack_m_ > 0.0) return;
-  if (walls_.clearance(footprint_, after) > 0.0 && gap_to(wanderers_.movers()) > 0.0) return;
+  if (walls_.clearance(footprint_, after) > 0.0 && gap_to_solid_mover() > 0.0) return;
   touch();
   plant_.stop_at(before);
 }
 
+void World::gather_movers() noexcept {
+  movers_.assign(wanderers_.movers().begin(), wanderers_.movers().end());  // room for all was taken at construction
+  movers_.insert(movers_.end(), recorded_.movers().begin(), recorded_.movers().end());
+  movers_.insert(movers_.end(), social_.movers().begin(), social_.movers().end());
+}
+
 void World::move_movers() noexcept {
   recorded_.place(to_seconds(truth_.now), body());
-  if (steps_ > 0) wanderers_.step(to_seconds(kMoverStep), body(), recorded_.movers());
-  movers_.assign(wanderers_.movers().begin(), wanderers_.movers().end());
-  movers_.insert(movers_.end(), recorded_.movers().begin(), recorded_.movers().end());
+  gather_movers();
+  if (steps_ > 0) {
+    const std::span<const MoverTruth> before = movers_;
+    wanderers_.step(to_seconds(kMoverStep), body(), before.subspan(wanderers_.movers().size()));
+    const Vec2 velocity = direction(plant_.map_from_robot().heading) * plant_.twist().v_mps;
+    social_.step(to_seconds(kMoverStep), body(), velocity, before.first(before.size() - social_.movers().size()));
+    gather_movers();
+  }
   see_movers();
-  if (wanderers_.bumped_robot()) touch();
+  if (wanderers_.bumped_robot() || social_.bumped_robot()) touch();
   judge_gaps();
+  measure_nearness();
   truth_.movers = movers_;
-  truth_.forced_movers = wanderers_.forced() + recorded_.forced();
+  truth_.forced_movers = wanderers_.forced() + recorded_.forced() + social_.forced();
   truth_.accel_mps2 = (plant_.rim_speed() - rim_speed_) / to_seconds(kMoverStep);
   rim_speed_ = plant_.rim_speed();
 }
@@ -156,14 +176,27 @@ void World::see_movers() noexcept {
 
 void World::judge_gaps() noexcept {
   const double to_wall = walls_.clearance(footprint_, plant_.map_from_robot());
-  const double to_wanderer = gap_to(wanderers_.movers());
-  const double to_mover = std::min(to_wanderer, gap_to(recorded_.movers()));
+  const double to_solid = gap_to_solid_mover();
+  const double to_mover = std::min(to_solid, gap_to(recorded_.movers()));
   const double gap = std::min(to_wall, to_mover);
-  slack_m_ = std::min(to_wall, to_wanderer);
+  slack_m_ = std::min(to_wall, to_solid);
   if (to_mover <= 0.0) touch();
   truth_.clearance_m = touching_ ? 0.0 : gap;
   if (gap > kApartAgain) touching_ = false;
   truth_.mover_clearance_m = to_mover;
+}
+
+void World::measure_nearness() noexcept {
+  double nearest_m = std::numeric_limits<double>::infinity();
+  for (const MoverTruth& m : movers_) nearest_m = std::min(nearest_m, body().gap({m.position, 0.0}));
+  SocialMeasures& measures = truth_.social;
+  const double step_s = steps_ > 0 ? to_seconds(kMoverStep) : 0.0;
+  if (nearest_m < kIntimate_m)
+    measures.intimate_s += step_s;
+  else if (nearest_m < kPersonal_m)
+    measures.personal_s += step_s;
+  measures.slowed_m = social_.caused().slowed_m;
+  measures.turned_rad = social_.caused().turned_rad;
 }
 
 void World::connect_plant() noexcept {

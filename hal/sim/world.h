@@ -10,6 +10,7 @@
 #include "hal/sim/movers.h"
 #include "hal/sim/plant.h"
 #include "hal/sim/simulation.h"
+#include "hal/sim/social_walkers.h"
 
 namespace jaywalk::sim {
 
@@ -63,9 +64,13 @@ class World {
   /// Moves a carried robot by the part of its way that falls into this step.
   void carry_robot() noexcept;
   void keep_out_of_solids(const Pose2& before) noexcept;
+  /// Gap (m) to the nearest mover that stops the robot.
+  [[nodiscard]] double gap_to_solid_mover() const noexcept;
+  void gather_movers() noexcept;
   void move_movers() noexcept;
   void see_movers() noexcept;
   void judge_gaps() noexcept;
+  void measure_nearness() noexcept;
   void touch() noexcept;
   /// Speed (m/s) of the outline's fastest point.
   [[nodiscard]] double outline_mps() const noexcept;
@@ -79,8 +84,9 @@ class World {
   Plant plant_;
   Wanderers wanderers_;
   RecordedMovers recorded_;
-  std::vector<MoverTruth> movers_;
-  std::vector<Legs> legs_;  ///< by the movers' ids, which begin at 1
+  SocialWalkers social_;
+  std::vector<MoverTruth> movers_;  ///< wandering, recorded, social
+  std::vector<Legs> legs_;          ///< by the movers' ids, which begin at 1
   std::vector<Disc> seen_;
   Truth truth_;
   std::int64_t steps_ = 0;

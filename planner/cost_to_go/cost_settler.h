@@ -47,8 +47,57 @@ struct PoseLook {
   }
 };
 
-/// cost[p] = min(cost[q] + step(p, q)) over the moves p to q of a lattice of poses.
+/// Price of a second at each pose, in 1/kRateOfOpen; 0: the body cannot be there. A body that stands nearer to
+/// something than there is a way may leave: near it, what has no less room is open.
+struct PoseRates {
+  static constexpr std::int32_t kOpenCells = 6, kOpenTurns = 6, kUneven = 1;  ///< of room: along a straight wall
+
+  const std::uint8_t* of_room;  ///< by all 256
+  std::uint8_t dearest;         ///< where it may leave
+  const std::uint8_t* room;     ///< by pose, PoseLook's
+  const std::uint8_t* dearer;   ///< beside pedestrians that stand; null: there are none
+  std::int32_t robot;           ///< pose; negative: none
+  std::uint8_t* rate;
+
+  /// Visits a pose.
+  JAYWALK_CELL void operator()(std::int32_t pose) const {
+    std::uint32_t price = of_room[room[pose]];
+    if (price == 0 && is_by_robot(pose, kOpenCells, kOpenTurns)) price = price_to_leave(pose);
+    if (price != 0 && dearer != nullptr) price += dearer[pose];
+    rate[pose] = static_cast<std::uint8_t>(price < 255 ? price : 255);
+  }
+
+ private:
+  using Lattice = PoseLattice;
+
+  [[nodiscard]] JAYWALK_CELL bool is_by_robot(std::int32_t pose, std::int32_t cells, std::int32_t turns) const {
+    const std::int32_t rows = Lattice::offset(0, cells + 1, 0);  // nearly all poses are farther off
+    if (robot < 0 || pose < robot - rows || pose > robot + rows) return false;
+    const std::int32_t i = Lattice::i_of(pose), j = Lattice::j_of(pose), di = i - Lattice::i_of(robot),
+                       dj = j - Lattice::j_of(robot),
+                       turn = Lattice::wrapped(Lattice::heading_of(pose) - Lattice::heading_of(robot) + turns);
+    return di >= -cells && di <= cells && dj >= -cells && dj <= cells && turn <= 2 * turns && i >= 0 && j >= 0 &&
+           i < Lattice::kSide && j < Lattice::kSide;
+  }
+  [[nodiscard]] JAYWALK_CELL std::uint32_t price_to_leave(std::int32_t pose) const {
+    std::int32_t most = 0;
+    for (std::int32_t dj = -1; dj <= 1; ++dj) {
+      for (std::int32_t di = -1; di <= 1; ++di) {
+        for (std::int32_t turn = -1; turn <= 1; ++turn) {
+          const std::int32_t heading = Lattice::wrapped(Lattice::heading_of(robot) + turn),
+                             there = Lattice::at(Lattice::i_of(robot) + di, Lattice::j_of(robot) + dj, heading);
+          most = is_by_robot(there, 1, 1) && room[there] > most ? room[there] : most;
+        }
+      }
+    }
+    return of_room[most] == 0 && room[pose] + kUneven >= most ? dearest : 0U;
+  }
+};
+
+/// The poses' room, their rates from that, and cost[p] = min(cost[q] + step(p, q)) over the moves p to q.
 struct PoseCosts {
+  PoseLook look;
+  PoseRates rates;
   PoseSteps steps;
   std::int32_t robot;    ///< pose; negative: none
   std::uint32_t beyond;  ///< more than the robot's cost: of no concern
@@ -81,8 +130,6 @@ class CostSettler {
   /// False: it failed, and nothing has been written.
   [[nodiscard]] virtual bool settle(const PoseCosts& poses) noexcept = 0;
   [[nodiscard]] virtual bool settle(const CellCosts& cells) noexcept = 0;
-  /// The room and shift of all poses.
-  [[nodiscard]] virtual bool find(const PoseLook& look) noexcept = 0;
 };
 
 }  // namespace jaywalk::field

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "planner/cost_to_go/nearest_surfaces.h"
 #include "planner/cost_to_go/pose_price.h"
@@ -33,6 +34,8 @@ bool turns_into_unseen(const PoseGuide& guide, const PoseWay& way) {
   return false;
 }
 
+constexpr std::size_t slot_of(std::int32_t pose) { return static_cast<std::size_t>(pose); }
+
 constexpr std::size_t kRooms = 256;
 
 /// Price of a second by the outline's room, in 1/kRateOfOpen; 0: the body cannot be there.
@@ -49,8 +52,6 @@ constexpr std::array<std::uint8_t, kRooms> kRateOfRoom = [] {
   return rates;
 }();
 
-constexpr std::int32_t kOpenCells = 6, kOpenTurns = 6;  // about a body that has no way else
-constexpr std::int32_t kUneven = 1;                     // of room: along a straight wall
 constexpr std::uint8_t kDearestPose =
     static_cast<std::uint8_t>((1.0F + price::kPoseNear) * static_cast<float>(price::kRateOfOpen));
 
@@ -95,7 +96,12 @@ PoseField::Memory::Memory()
       shift(Lattice::kPoses) {}
 
 PoseField::PoseField(const Footprint& body, CostSettler* settler, std::size_t entries)
-    : body_(body), settler_(settler), room_(body, settler), queue_(0, entries) {}
+    : body_(body),
+      settler_(settler),
+      room_(body),
+      dearer_(Lattice::kPoses),
+      seeds_(Lattice::kPoses),
+      queue_(0, entries) {}
 
 PoseGuide PoseField::settle(const PoseFieldRequest& request, Memory& memory) noexcept {
   const Pose2& robot = request.map_from_robot;
@@ -109,17 +115,22 @@ PoseGuide PoseField::settle(const PoseFieldRequest& request, Memory& memory) noe
                   .room = memory.room.data(),
                   .shift = memory.shift.data(),
                   .moves = &memory.moves};
-  room_.find(request.guide, low, request.asked.unseen_walls, memory.room.data(), memory.shift.data());
+  room_.take_surfaces(request.guide, low, request.asked.unseen_walls);
   const Place here = place_of(robot.position());
-  if (room_.find_unseen(request.guide, low, memory.unseen.data())) guide.unseen = memory.unseen.data();
-  weigh(request, guide, memory);
-  std::fill(memory.cost.begin(), memory.cost.end(), PoseGuide::kNoWay);
-  graph_.lay(guide, memory.cost.data(), guide.pose_at(here.x, here.y, static_cast<float>(robot.heading)), kBeyond);
-  queue_.clear();
-  guide.goal_closed = !sow_goal(request, guide, memory) && request.asked.wants_heading;
-  if (queue_.is_empty() && !guide.goal_closed) sow_rim(request, guide, memory);
-  settle_costs(memory);
   const auto heading = static_cast<float>(robot.heading);
+  if (room_.find_unseen(request.guide, low, memory.unseen.data())) guide.unseen = memory.unseen.data();
+  graph_.lay(guide, memory.cost.data(), guide.pose_at(here.x, here.y, heading), kBeyond);
+  const bool anybody_stands = weigh_standing(request, guide), is_inside = sow_goal(request, guide, memory);
+  if (!is_inside) sow_rim(request, guide, memory);
+  settle_costs(anybody_stands, memory);
+  const auto any_seed = [&](const auto& is_open) { return std::any_of(seeds_.begin(), seeds_.end(), is_open); };
+  if (is_inside && !any_seed([&](std::int32_t pose) { return kRateOfRoom[memory.room[slot_of(pose)]] != 0; })) {
+    guide.goal_closed = request.asked.wants_heading;
+    if (!guide.goal_closed && !any_seed([&](std::int32_t pose) { return memory.rate[slot_of(pose)] != 0; })) {
+      sow_rim(request, guide, memory);
+      settle_costs(anybody_stands, memory);
+    }
+  }
   guide.known = guide.time_to_go(request.guide, here.x, here.y, heading) < Guide::kNoWay_s;
   if (guide.known && guide.unseen != nullptr) {
     guide.way_from(here.x, here.y, heading, way_);
@@ -128,53 +139,56 @@ PoseGuide PoseField::settle(const PoseFieldRequest& request, Memory& memory) noe
   return guide;
 }
 
-void PoseField::offer(std::int32_t pose, float seconds) noexcept {
-  queue_.offer(graph_, pose, static_cast<std::uint32_t>(seconds * kPoseCostsPerSecond));
+void PoseField::forget_seeds(Memory& memory) noexcept {
+  std::fill(memory.cost.begin(), memory.cost.end(), PoseGuide::kNoWay);
+  seeds_.clear();
 }
 
-void PoseField::settle_costs(Memory& memory) noexcept {
+void PoseField::sow(std::int32_t pose, float seconds, Memory& memory) noexcept {
+  std::uint16_t& cost = memory.cost[slot_of(pose)];
+  if (cost == PoseGuide::kNoWay) seeds_.push_back(pose);
+  const auto given = static_cast<std::uint32_t>(seconds * kPoseCostsPerSecond);
+  cost = static_cast<std::uint16_t>(std::min<std::uint32_t>(cost, given));
+}
+
+void PoseField::settle_costs(bool anybody_stands, Memory& memory) noexcept {
   const std::int32_t robot = graph_.robot();
-  const bool is_settled =
-      (settler_ != nullptr && settler_->settle({graph_.steps(), robot, kBeyond, memory.cost.data()})) ||
-      queue_.settle(graph_);
+  const PoseCosts poses{room_.look(memory.room.data(), memory.shift.data()),
+                        {kRateOfRoom.data(), kDearestPose, memory.room.data(),
+                         anybody_stands ? dearer_.data() : nullptr, robot, memory.rate.data()},
+                        graph_.steps(),
+                        robot,
+                        kBeyond,
+                        memory.cost.data()};
+  const bool is_settled = (settler_ != nullptr && settler_->settle(poses)) || settle_here(poses);
   const std::uint32_t end = is_settled ? graph_.limit() : 0;
   for (std::uint16_t& cost : memory.cost) cost = cost >= end ? PoseGuide::kNoWay : cost;
 }
 
-void PoseField::weigh(const PoseFieldRequest& request, const PoseGuide& guide, Memory& memory) const noexcept {
-  for (std::size_t k = 0; k < memory.rate.size(); ++k) memory.rate[k] = kRateOfRoom[memory.room[k]];
-  open_about(request.map_from_robot, guide, memory);
-  for (const MoverDisc& mover : request.movers) {
-    if (mover.lasting) weigh_standing(mover, guide, memory);
+bool PoseField::settle_here(const PoseCosts& poses) noexcept {
+  room_.find(poses.look);
+  const PoseRates rates = poses.rates;  // a copy, which what is written cannot change
+  for (std::int32_t pose = 0; pose < Lattice::kPoses; ++pose) rates(pose);
+  queue_.clear();
+  for (const std::int32_t pose : seeds_) {
+    const std::uint32_t given = std::exchange(poses.cost[pose], PoseGuide::kNoWay);
+    if (rates.rate[pose] != 0) queue_.offer(graph_, pose, given);
   }
+  return queue_.settle(graph_);
 }
 
-/// A body that stands nearer to something than there is a way may leave: near it, what has no less room is open.
-void PoseField::open_about(const Pose2& robot, const PoseGuide& guide, Memory& memory) const noexcept {
-  const std::int32_t here =
-      guide.pose_at(static_cast<float>(robot.x), static_cast<float>(robot.y), static_cast<float>(robot.heading));
-  const std::int32_t ci = Lattice::i_of(here), cj = Lattice::j_of(here), ch = Lattice::heading_of(here);
-  std::int32_t most = 0;
-  const auto visit_near = [](std::int32_t middle, std::int32_t reach, const auto& visit) {
-    for (std::int32_t k = std::max(middle - reach, 0); k <= std::min(middle + reach, Lattice::kSide - 1); ++k) visit(k);
-  };
-  const auto visit_poses = [&](std::int32_t cells, std::int32_t turns, const auto& visit) {
-    visit_near(cj, cells, [&](std::int32_t j) {
-      visit_near(ci, cells, [&](std::int32_t i) {
-        for (std::int32_t turn = -turns; turn <= turns; ++turn)
-          visit(static_cast<std::size_t>(Lattice::at(i, j, Lattice::wrapped(ch + turn))));
-      });
-    });
-  };
-  visit_poses(1, 1, [&](std::size_t pose) { most = std::max<std::int32_t>(most, memory.room[pose]); });
-  if (kRateOfRoom[static_cast<std::size_t>(most)] != 0) return;
-  visit_poses(kOpenCells, kOpenTurns, [&](std::size_t pose) {
-    if (memory.rate[pose] == 0 && memory.room[pose] + kUneven >= most) memory.rate[pose] = kDearestPose;
-  });
+bool PoseField::weigh_standing(const PoseFieldRequest& request, const PoseGuide& guide) noexcept {
+  const auto stands = [](const MoverDisc& mover) { return mover.lasting; };
+  if (std::none_of(request.movers.begin(), request.movers.end(), stands)) return false;
+  std::fill(dearer_.begin(), dearer_.end(), std::uint8_t{0});
+  for (const MoverDisc& mover : request.movers) {
+    if (stands(mover)) weigh_standing(mover, guide);
+  }
+  return true;
 }
 
 /// Ways past a pedestrian that stands are dear, not closed: it may leave.
-void PoseField::weigh_standing(const MoverDisc& mover, const PoseGuide& guide, Memory& memory) const noexcept {
+void PoseField::weigh_standing(const MoverDisc& mover, const PoseGuide& guide) noexcept {
   const Place at = place_of(mover.centre_in_map);
   const double reach_m = body_.circumscribed_radius_m() + mover.radius_m + static_cast<double>(price::kPoliteCoat_m);
   const auto cells = static_cast<std::int32_t>(reach_m / static_cast<double>(Lattice::kCell_m)) + 1;
@@ -187,12 +201,12 @@ void PoseField::weigh_standing(const MoverDisc& mover, const PoseGuide& guide, M
         const Place p = guide.middle_of(i, j);
         const float dx = at.x - p.x, dy = at.y - p.y;
         const Vec2 seen{static_cast<double>(dx * a.x + dy * a.y), static_cast<double>(dy * a.x - dx * a.y)};
-        std::uint8_t& rate = memory.rate[static_cast<std::size_t>(Lattice::at(i, j, h))];
         const auto gap_m = static_cast<float>(body_.distance_to(seen) - mover.radius_m);
-        if (rate == 0 || gap_m >= price::kPoliteCoat_m) continue;
-        const float weight = gap_m < price::kPoseCoat_m ? price::kPoseStanding : price::kPolite;
-        rate = static_cast<std::uint8_t>(
-            std::min(255.0F, static_cast<float>(rate) + weight * static_cast<float>(price::kRateOfOpen)));
+        if (gap_m >= price::kPoliteCoat_m) continue;
+        const auto more =
+            static_cast<std::uint32_t>(gap_m < price::kPoseCoat_m ? price::kPoseStanding : price::kPolite);
+        std::uint8_t& dearer = dearer_[slot_of(Lattice::at(i, j, h))];
+        dearer = static_cast<std::uint8_t>(std::min(255U, dearer + more * price::kRateOfOpen));
       }
     }
   }
@@ -201,13 +215,13 @@ void PoseField::weigh_standing(const MoverDisc& mover, const PoseGuide& guide, M
 bool PoseField::sow_goal(const PoseFieldRequest& request, const PoseGuide& guide, Memory& memory) noexcept {
   const Place goal = place_of(request.goal_in_map);
   constexpr float kMost = Lattice::kCell_m * static_cast<float>(Lattice::kSide) - kInside_m;
+  forget_seeds(memory);
   const float gx = goal.x - guide.low_x, gy = goal.y - guide.low_y;
-  if (!(gx > kInside_m && gy > kInside_m && gx < kMost && gy < kMost)) return true;
+  if (!(gx > kInside_m && gy > kInside_m && gx < kMost && gy < kMost)) return false;
   const PoseRequest& asked = request.asked;
   const auto cells = static_cast<std::int32_t>(asked.arrives_m / Lattice::kCell_m) + 1;
   const auto ci = static_cast<std::int32_t>(gx / Lattice::kCell_m),
              cj = static_cast<std::int32_t>(gy / Lattice::kCell_m);
-  bool has_room = false;
   for (std::int32_t j = std::max(cj - cells, 0); j <= std::min(cj + cells, Lattice::kSide - 1); ++j) {
     for (std::int32_t i = std::max(ci - cells, 0); i <= std::min(ci + cells, Lattice::kSide - 1); ++i) {
       const Place p = guide.middle_of(i, j);
@@ -217,17 +231,15 @@ bool PoseField::sow_goal(const PoseFieldRequest& request, const PoseGuide& guide
         const std::int32_t pose = Lattice::at(i, j, h);
         const float off = std::fabs(cell::wrapped(static_cast<float>(h) * Lattice::kStep_rad - asked.heading));
         if (asked.wants_heading && off >= Lattice::kStep_rad) continue;
-        has_room = has_room || kRateOfRoom[memory.room[static_cast<std::size_t>(pose)]] != 0;
-        if (memory.rate[static_cast<std::size_t>(pose)] == 0) continue;
-        const float seconds = kOffGoal * away + (asked.wants_heading ? off / asked.speeds.spot : 0.0F);
-        offer(pose, seconds);
+        sow(pose, kOffGoal * away + (asked.wants_heading ? off / asked.speeds.spot : 0.0F), memory);
       }
     }
   }
-  return has_room;
+  return true;
 }
 
 void PoseField::sow_rim(const PoseFieldRequest& request, PoseGuide& guide, Memory& memory) noexcept {
+  forget_seeds(memory);
   float least = Guide::kNoWay_s;
   for_each_of_rim([&](std::int32_t i, std::int32_t j, std::int32_t out_x, std::int32_t out_y) {
     least = std::min(least, time_outward(request.guide, guide.middle_of(i, j), out_x, out_y));
@@ -239,10 +251,9 @@ void PoseField::sow_rim(const PoseFieldRequest& request, PoseGuide& guide, Memor
     if (time_outward(request.guide, p, out_x, out_y) >= Guide::kNoWay_s) return;
     for (std::int32_t h = 0; h < Lattice::kHeadings; ++h) {
       const std::int32_t pose = Lattice::at(i, j, h);
-      if (memory.rate[static_cast<std::size_t>(pose)] == 0) continue;
       const cell::Heading along = cell::heading_at(static_cast<float>(h) * Lattice::kStep_rad);
       const float seconds = std::max(guide.time_beyond(request.guide, p.x, p.y, along) - least, 0.0F);
-      if (seconds < kMostRim_s) offer(pose, seconds);
+      if (seconds < kMostRim_s) sow(pose, seconds, memory);
     }
   });
 }

@@ -47,18 +47,22 @@ class PoseField {
   PoseGuide settle(const PoseFieldRequest& request, Memory& memory) noexcept;
 
  private:
-  void weigh(const PoseFieldRequest& request, const PoseGuide& guide, Memory& memory) const noexcept;
-  void open_about(const Pose2& robot, const PoseGuide& guide, Memory& memory) const noexcept;
-  void weigh_standing(const MoverDisc& mover, const PoseGuide& guide, Memory& memory) const noexcept;
-  /// False where the goal lies in the square, but no pose wanted there has room.
-  bool sow_goal(const PoseFieldRequest& request, const PoseGuide& guide, Memory& memory) noexcept;
+  /// Whether there is any.
+  [[nodiscard]] bool weigh_standing(const PoseFieldRequest& request, const PoseGuide& guide) noexcept;
+  void weigh_standing(const MoverDisc& mover, const PoseGuide& guide) noexcept;
+  /// False where the goal lies beyond the square.
+  [[nodiscard]] bool sow_goal(const PoseFieldRequest& request, const PoseGuide& guide, Memory& memory) noexcept;
   void sow_rim(const PoseFieldRequest& request, PoseGuide& guide, Memory& memory) noexcept;
-  void offer(std::int32_t pose, float seconds) noexcept;
-  void settle_costs(Memory& memory) noexcept;
+  void forget_seeds(Memory& memory) noexcept;
+  void sow(std::int32_t pose, float seconds, Memory& memory) noexcept;
+  void settle_costs(bool anybody_stands, Memory& memory) noexcept;
+  [[nodiscard]] bool settle_here(const PoseCosts& poses) noexcept;
 
   Footprint body_;
   CostSettler* settler_;
   PoseRoom room_;
+  std::vector<std::uint8_t> dearer_;  ///< by pose, beside pedestrians that stand: PoseRates
+  std::vector<std::int32_t> seeds_;   ///< poses that a cost is given for
   PoseGraph graph_;
   Shortest queue_;
   PoseWay way_;

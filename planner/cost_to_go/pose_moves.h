@@ -21,13 +21,15 @@ struct PoseLattice {
     return ((j + kReach) * kStride + i + kReach) * kHeadings + heading;
   }
   JAYWALK_CELL static constexpr std::int32_t heading_of(std::int32_t pose) { return pose % kHeadings; }
-  static constexpr std::int32_t i_of(std::int32_t pose) { return pose / kHeadings % kStride - kReach; }
-  static constexpr std::int32_t j_of(std::int32_t pose) { return pose / kHeadings / kStride - kReach; }
+  JAYWALK_CELL static constexpr std::int32_t i_of(std::int32_t pose) { return pose / kHeadings % kStride - kReach; }
+  JAYWALK_CELL static constexpr std::int32_t j_of(std::int32_t pose) { return pose / kHeadings / kStride - kReach; }
   /// From a pose to the one so many cells and headings on.
-  static constexpr std::int32_t offset(std::int32_t di, std::int32_t dj, std::int32_t headings) {
+  JAYWALK_CELL static constexpr std::int32_t offset(std::int32_t di, std::int32_t dj, std::int32_t headings) {
     return (dj * kStride + di) * kHeadings + headings;
   }
-  static constexpr std::int32_t wrapped(std::int32_t heading) { return (heading % kHeadings + kHeadings) % kHeadings; }
+  JAYWALK_CELL static constexpr std::int32_t wrapped(std::int32_t heading) {
+    return (heading % kHeadings + kHeadings) % kHeadings;
+  }
 };
 
 /// Costs are counted in these, so that they add up to the same in any order.

@@ -13,6 +13,25 @@ constexpr std::int32_t kSide = PoseLattice::kSide;
 constexpr std::int32_t kWallNodes = 24;  // about a wall's point: a body's half width and where it is dear
 constexpr std::int32_t kMost = 60;       // nodes that a body reaches
 
+constexpr std::int32_t kWallColumns = 2 * kWallNodes / PoseLook::kPerCell + 1;
+/// Distance from a wall's point, by rows of nodes off it and node: every fourth of a row side by side, as PoseLook has
+/// them.
+struct AwayFromWall {
+  AwayFromWall() {
+    for (std::int32_t dj = 0; dj <= kWallNodes; ++dj) {
+      for (std::int32_t k = 0; k < PoseLook::kPerCell * kWallColumns; ++k) {
+        const auto dx = static_cast<float>(k - kWallNodes), dy = static_cast<float>(dj);
+        const float units = std::min(std::sqrt(dx * dx + dy * dy) * (kNode_m / PoseRoom::kUnit_m), 250.0F);
+        rows[dj][k % PoseLook::kPerCell][k / PoseLook::kPerCell] =
+            k > 2 * kWallNodes ? std::uint8_t{255} : static_cast<std::uint8_t>(units);
+      }
+    }
+  }
+  const auto& operator[](std::int32_t dj) const { return rows[dj]; }
+  std::uint8_t rows[kWallNodes + 1][PoseLook::kPerCell][kWallColumns];
+};
+const AwayFromWall kAwayFromWall;
+
 /// A place in a body's frame, turned to a heading and rounded to nodes.
 struct Offset {
   std::int32_t x, y;
@@ -34,10 +53,8 @@ std::int32_t place_of_node(const Offset& at) {
 
 }  // namespace
 
-PoseRoom::PoseRoom(const Footprint& body, CostSettler* settler)
-    : settler_(settler),
-      nodes_(static_cast<std::size_t>(kNodes) * kNodes),
-      unseen_(static_cast<std::size_t>(kNodes) * kNodes) {
+PoseRoom::PoseRoom(const Footprint& body)
+    : nodes_(static_cast<std::size_t>(kNodes) * kNodes), unseen_(static_cast<std::size_t>(kNodes) * kNodes) {
   const auto front = static_cast<float>(body.front_m), rear = static_cast<float>(-body.rear_m),
              half = static_cast<float>(body.half_width_m), middle = 0.5F * (front + rear);
   rim_ = {{{front, half},
@@ -112,32 +129,34 @@ void PoseRoom::look_along(const std::int32_t* places, std::int32_t j, std::uint8
 void PoseRoom::add_wall(Place at) noexcept {
   const auto ci = static_cast<std::int32_t>(std::lround(at.x / kNode_m)) + kMargin,
              cj = static_cast<std::int32_t>(std::lround(at.y / kNode_m)) + kMargin;
-  for (std::int32_t j = std::max(cj - kWallNodes, 0); j <= std::min(cj + kWallNodes, kNodes - 1); ++j) {
-    for (std::int32_t i = std::max(ci - kWallNodes, 0); i <= std::min(ci + kWallNodes, kNodes - 1); ++i) {
-      const auto dx = static_cast<float>(i - ci), dy = static_cast<float>(j - cj);
-      const auto away = static_cast<std::uint8_t>(std::min(std::sqrt(dx * dx + dy * dy) * (kNode_m / kUnit_m), 250.0F));
-      std::uint8_t& node = nodes_[static_cast<std::size_t>((i % kPerCell * kNodes + j) * kColumns + i / kPerCell)];
-      node = std::min(node, away);
+  for (std::int32_t k = 0; k < kPerCell; ++k) {
+    const std::int32_t first = ci - kWallNodes + k, phase = (first % kPerCell + kPerCell) % kPerCell,
+                       column = (first - phase) / kPerCell;
+    const std::int32_t from = std::max(0, -column), to = std::min(kWallColumns, kColumns - column);
+    for (std::int32_t j = std::max(cj - kWallNodes, 0); j <= std::min(cj + kWallNodes, kNodes - 1); ++j) {
+      std::uint8_t* const row = nodes_.data() + (phase * kNodes + j) * kColumns + column;
+      const std::uint8_t* const away = kAwayFromWall[std::abs(j - cj)][k];
+      for (std::int32_t n = from; n < to; ++n) row[n] = std::min(row[n], away[n]);
     }
   }
 }
 
-void PoseRoom::find(const Guide& guide, Place low, std::span<const Vec2> walls, std::uint8_t* room,
-                    std::int8_t* shift) noexcept {
+void PoseRoom::take_surfaces(const Guide& guide, Place low, std::span<const Vec2> walls) noexcept {
   take_nodes(guide, low);
   for (const Vec2 wall : walls) add_wall({static_cast<float>(wall.x) - low.x, static_cast<float>(wall.y) - low.y});
-  const auto points = static_cast<std::int32_t>(radius_.size());
-  if (settler_ != nullptr && settler_->find({nodes_.data(), places_.data(), radius_.data(), points, room, shift}))
-    return;
+}
+
+void PoseRoom::find(const PoseLook& look) const noexcept {
   for (std::int32_t j = 0; j < kSide; ++j) {
     for (std::int32_t heading = 0; heading < PoseLattice::kHeadings; ++heading) {
       std::uint8_t least[PoseLook::kSides][kSide];
       for (std::int32_t side = 0; side < PoseLook::kSides; ++side)
-        look_along(&places_[static_cast<std::size_t>((heading * PoseLook::kSides + side) * points)], j, least[side]);
+        look_along(&places_[static_cast<std::size_t>((heading * PoseLook::kSides + side) * look.points)], j,
+                   least[side]);
       for (std::int32_t i = 0; i < kSide; ++i) {
         const std::int32_t pose = PoseLattice::at(i, j, heading);
         const std::int32_t aside = least[2][i] > least[1][i] ? 2 : 1, side = least[aside][i] > least[0][i] ? aside : 0;
-        room[pose] = least[side][i], shift[pose] = PoseLook::shift_of(side);
+        look.room[pose] = least[side][i], look.shift[pose] = PoseLook::shift_of(side);
       }
     }
   }

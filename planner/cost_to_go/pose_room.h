@@ -12,7 +12,7 @@
 namespace jaywalk::field {
 
 /// How much room a body's outline has at every pose of the lattice: by points along it, on nodes 2.5 cm apart
-/// (pose_look.h). `settler` is asked first; where it fails, and without one, it is found here.
+/// (PoseLook).
 ///
 /// Memory in the constructor. Thread: the planner's.
 class PoseRoom {
@@ -20,12 +20,16 @@ class PoseRoom {
   static constexpr float kUnit_m = 0.008F;   ///< of room
   static constexpr float kShift_m = 0.035F;  ///< to one side of a cell's middle or the other
 
-  explicit PoseRoom(const Footprint& body, CostSettler* settler = nullptr);
+  explicit PoseRoom(const Footprint& body);
 
-  /// By pose: room, and the shift to the left in kShift_m; of the lattice whose low corner is there. `walls`: surfaces
-  /// beside the guide's, in the map.
-  void find(const Guide& guide, Place low, std::span<const Vec2> walls, std::uint8_t* room,
-            std::int8_t* shift) noexcept;
+  /// Of the lattice whose low corner is there. `walls`: surfaces beside the guide's, in the map.
+  void take_surfaces(const Guide& guide, Place low, std::span<const Vec2> walls) noexcept;
+  /// By pose: room, and the shift to the left in kShift_m.
+  [[nodiscard]] PoseLook look(std::uint8_t* room, std::int8_t* shift) const noexcept {
+    return {nodes_.data(), places_.data(), radius_.data(), static_cast<std::int32_t>(radius_.size()), room, shift};
+  }
+  /// Does as `look` says.
+  void find(const PoseLook& look) const noexcept;
   /// By pose: how many of eight points of the outline lie where nothing was ever seen, but for those near the robot.
   /// Whether there are any.
   [[nodiscard]] bool find_unseen(const Guide& guide, Place low, std::uint8_t* unseen) noexcept;
@@ -40,7 +44,6 @@ class PoseRoom {
   void add_wall(Place at) noexcept;
   void look_along(const std::int32_t* places, std::int32_t j, std::uint8_t* least) const noexcept;
 
-  CostSettler* settler_;
   std::vector<Place> points_;                 ///< in the body's frame
   std::vector<std::uint8_t> radius_;          ///< of each, in kUnit_m
   std::vector<std::int32_t> places_;          ///< as PoseLook has them

@@ -159,9 +159,12 @@ float GoalRollouts::conflict_price() const noexcept {
 }
 
 void GoalRollouts::note_progress(const Situation& situation, Time now) noexcept {
+  stall_.wound_rad += cell::wrapped(situation.start.heading - heading_);
+  heading_ = situation.start.heading;
   const float to_go_s = situation.time_to_go(decision_.start);
   if (stalled_since_ == kNever || now < stalled_since_ || stall_.gets_on(to_go_s)) {
     stall_.least_to_go_s = to_go_s;
+    stall_.wound_rad = 0.0F;
     stalled_since_ = now;
   }
   const std::span<const MoverBelief> beliefs = memory().beliefs();

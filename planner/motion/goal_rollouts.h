@@ -47,6 +47,7 @@ class GoalRollouts final : public RolloutMotion {
   Time stalled_since_ = kNever;
   bool stands_there_ = false;  ///< at the goal, with the heading wanted
   float turned_ = 0.0F;        ///< the side that it turned to last
+  float heading_ = 0.0F;       ///< at the last decision
   KnownBehind known_behind_;
 };
 

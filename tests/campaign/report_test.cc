@@ -128,6 +128,23 @@ TEST_CASE("settings that differ in one option are compared run by run over share
   CHECK(paired_tables(tables).empty());  // four pairs prove nothing
 }
 
+TEST_CASE("a report has a table of people where the robot moved any, and none elsewhere") {
+  ReportedExperiment experiment;
+  PlannedRun run;
+  ReportedTables tables{&experiment, {{"orca", {}, {{&run, nullptr, result("reached"), {}}}}}};
+  const auto people = [&] {
+    for (const ReportTable& table : tables_of(tables))
+      if (table.title.starts_with("People")) return table.rows[0];
+    return std::vector<std::string>();
+  };
+  CHECK(people().empty());
+  for (const auto& [name, value] :
+       {std::pair{"intimate_s", 0.5}, {"personal_s", 4.0}, {"slowed_m", 2.0}, {"turned_rad", 3.0}})
+    tables.rows[0].runs[0].result.figures[name] = value;
+  CHECK(people() ==
+        std::vector<std::string>{"orca", "0.5 / 0.5 / 0.5", "4.0 / 4.0 / 4.0", "2.0 / 2.0 / 2.0", "3.0 / 3.0 / 3.0"});
+}
+
 TEST_CASE("a report says what is missing, and does not mix campaigns") {
   const CampaignScratch scratch;
   const Plan plan = two_runs();

@@ -1,6 +1,7 @@
 // The time to go over cells and over poses, on the emulated device: the processor's numbers, in whatever order blocks
 // and threads run.
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <string>
 
@@ -29,6 +30,41 @@ struct Rig {
   CudaCostToGo settler;
 };
 
+/// Costs over poses whose rates are given by cell.
+struct Given {
+  explicit Given(std::uint16_t first) : cost(PoseLattice::kPoses, first) {
+    for (std::size_t k = 0; k < of_room.size(); ++k) of_room[k] = static_cast<std::uint8_t>(k);
+    PoseMoves moves;
+    moves.draw(Chair::kSpeeds);
+    back.turn_back(moves);
+  }
+  void rate_cell(std::int32_t i, std::int32_t j, std::uint8_t as) {
+    nodes[static_cast<std::size_t>(j * Look::kPerCell * Look::kColumns + i)] = as;
+  }
+  [[nodiscard]] field::PoseCosts costs() {
+    return {{nodes.data(), places.data(), &radius, 1, room.data(), shift.data()},
+            {of_room.data(), 0, room.data(), nullptr, -1, rate.data()},
+            {&back, rate.data()},
+            -1,
+            1024,
+            cost.data()};
+  }
+
+  using Look = field::PoseLook;
+  std::vector<std::uint16_t> cost;
+
+ private:
+  static constexpr std::size_t kPoses = PoseLattice::kPoses, kNodes = Look::kNodes;
+  std::vector<std::uint8_t> nodes = std::vector<std::uint8_t>(kNodes * kNodes),
+                            room = std::vector<std::uint8_t>(kPoses), rate = room;
+  std::vector<std::int32_t> places =
+      std::vector<std::int32_t>(PoseLattice::kHeadings * Look::kSides);  // of cell (0, 0)
+  std::vector<std::int8_t> shift = std::vector<std::int8_t>(kPoses);
+  std::array<std::uint8_t, 256> of_room{};
+  std::uint8_t radius = 0;
+  field::BackMoves back{};
+};
+
 /// Walls of a metre here and there, none of them about the origin.
 WalledGround scattered(std::uint64_t seed) {
   WalledGround ground;
@@ -48,6 +84,7 @@ bool check_same(Chair& cpu, Chair& gpu, const Pose2& robot, Vec2 goal, double he
   CHECK(same(cpu.guide.to_go_s, gpu.guide.to_go_s, cpu.guide.side * cpu.guide.side));
   CHECK(cpu.memory.room == gpu.memory.room);
   CHECK(cpu.memory.shift == gpu.memory.shift);
+  CHECK(cpu.memory.rate == gpu.memory.rate);
   CHECK(cpu.memory.cost == gpu.memory.cost);
   CHECK(a.known == b.known);
   CHECK(a.through_unseen == b.through_unseen);
@@ -77,18 +114,11 @@ TEST_CASE("emulated: times from cells and from poses are the processor's on rand
 
 TEST_CASE("emulated: a robot nowhere on the lattice, and costs up to the largest, are settled as far as numbers go") {
   Rig rig({.seed = 4});
-  PoseMoves moves;
-  moves.draw(Chair::kSpeeds);
-  std::vector<std::uint8_t> rate(PoseLattice::kPoses);
-  std::vector<std::uint16_t> cost(PoseLattice::kPoses, PoseGuide::kNoWay);
-  for (std::int32_t h = 0; h < PoseLattice::kHeadings; ++h) {
-    for (std::int32_t i = 0; i < PoseLattice::kSide; ++i)
-      rate[static_cast<std::size_t>(PoseLattice::at(i, 20, h))] = 255;  // a lane as dear as can be
-  }
+  Given given(PoseGuide::kNoWay);
+  for (std::int32_t i = 0; i < PoseLattice::kSide; ++i) given.rate_cell(i, 20, 255);  // a lane as dear as can be
+  std::vector<std::uint16_t>& cost = given.cost;
   cost[static_cast<std::size_t>(PoseLattice::at(0, 20, 0))] = 60000;
-  field::BackMoves back{};
-  back.turn_back(moves);
-  REQUIRE(rig.settler.settle(field::PoseCosts{{&back, rate.data()}, -1, 1024, cost.data()}));
+  REQUIRE(rig.settler.settle(given.costs()));
   const auto near = static_cast<std::size_t>(PoseLattice::at(1, 20, 0)),
              far = static_cast<std::size_t>(PoseLattice::at(60, 20, 0));
   CHECK(cost[near] > 60000);
@@ -120,21 +150,19 @@ TEST_CASE("emulated: poses are settled in few steps, and hardly more of them tha
 
 TEST_CASE("emulated: more costs than a pile holds are settled by the processor") {
   Rig rig({.guarded = true, .seed = 7});
-  std::vector<std::uint8_t> rate(PoseLattice::kPoses, 8);
-  std::vector<std::uint16_t> cost(PoseLattice::kPoses, 100);
-  const std::vector<std::uint16_t> given = cost;
-  PoseMoves moves;
-  moves.draw(Chair::kSpeeds);
-  field::BackMoves back{};
-  back.turn_back(moves);
-  CHECK_FALSE(rig.settler.settle(field::PoseCosts{{&back, rate.data()}, -1, 1024, cost.data()}));
-  CHECK(cost == given);
+  Given given(100);
+  for (std::int32_t j = 0; j < PoseLattice::kSide; ++j) {
+    for (std::int32_t i = 0; i < PoseLattice::kSide; ++i) given.rate_cell(i, j, 8);
+  }
+  const std::vector<std::uint16_t> before = given.cost;
+  CHECK_FALSE(rig.settler.settle(given.costs()));
+  CHECK(given.cost == before);
   CHECK_FALSE(rig.settler.has_failed());
 }
 
 TEST_CASE("emulated: a settler whose device fails says so, has written nothing, and its field is the processor's") {
   for (const Fault fault : {Fault::kRefused, Fault::kBroken}) {
-    for (const int launch : {0, 1, 4}) {  // two over cells, one for room, three over poses
+    for (const int launch : {0, 1, 4}) {  // two over cells, four over poses
       Rig rig({.guarded = true, .seed = 2});
       const WalledGround ground = scattered(5);
       Chair cpu(ground), gpu(ground, &rig.settler);

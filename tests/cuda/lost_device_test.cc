@@ -70,6 +70,7 @@ TEST_CASE("emulated: each way to fail, early, late and between, is answered by t
   const auto launches = [](bool is_paper) {
     Drive drive({}, is_paper);
     (void)drive.plan();
+    if (!is_paper) CHECK(device().counts.waits == 2);  // for cells, for poses
     return static_cast<int>(device().counts.launches);
   };
   const auto points = [](bool is_paper) {
@@ -79,7 +80,7 @@ TEST_CASE("emulated: each way to fail, early, late and between, is answered by t
   };
   const std::array most{launches(false), launches(true)};
   const std::array path{points(false), points(true)};
-  CHECK(most[0] == 6);  // two over cells, one for room, three over poses
+  CHECK(most[0] == 6);  // two over cells, four over poses
   CHECK(most[1] > 16);
   for (const Case& c : {Case{Fault::kRefused, "cpu (cuda: a launch was refused)"},
                         Case{Fault::kBroken, "cpu (cuda: the device failed)"},
@@ -202,7 +203,7 @@ namespace {
 
 /// The emulated device, with one bit wrong in one of its answers.
 struct WrongBit final : field::CostSettler {
-  enum class In { kNone, kPoses, kCells, kRoom, kShift };
+  enum class In { kNone, kPoses, kCells, kRoom, kShift, kRate };
   explicit WrongBit(In wrong) : in(wrong) {}
   bool is_ready() noexcept override { return settler.is_ready(); }
   bool has_failed() const noexcept override { return settler.has_failed(); }
@@ -212,17 +213,14 @@ struct WrongBit final : field::CostSettler {
   bool settle(const field::PoseCosts& poses) noexcept override {
     const bool done = settler.settle(poses);
     if (in == In::kPoses) poses.cost[poses.robot] ^= 1U;
+    if (in == In::kRoom) poses.look.room[0] ^= 1U;
+    if (in == In::kShift) poses.look.shift[PoseLattice::kPoses - 1] ^= 1;
+    if (in == In::kRate) poses.rates.rate[0] ^= 1U;
     return done;
   }
   bool settle(const field::CellCosts& cells) noexcept override {
     const bool done = settler.settle(cells);
     if (in == In::kCells) cells.nodes[cells.robot].cost ^= 1U;
-    return done;
-  }
-  bool find(const field::PoseLook& look) noexcept override {
-    const bool done = settler.find(look);
-    if (in == In::kRoom) look.room[0] ^= 1U;
-    if (in == In::kShift) look.shift[PoseLattice::kPoses - 1] ^= 1;
     return done;
   }
 
@@ -232,10 +230,12 @@ struct WrongBit final : field::CostSettler {
 
 }  // namespace
 
-TEST_CASE("emulated: one wrong bit in a cost of a cell or a pose, in a room or a shift, and the trial is not passed") {
+TEST_CASE(
+    "emulated: one wrong bit in a cost of a cell or a pose, in a room, a shift or a rate, and the trial is not "
+    "passed") {
   device().power_on();
   using In = WrongBit::In;
-  for (const In wrong : {In::kNone, In::kPoses, In::kCells, In::kRoom, In::kShift}) {
+  for (const In wrong : {In::kNone, In::kPoses, In::kCells, In::kRoom, In::kShift, In::kRate}) {
     CAPTURE(static_cast<int>(wrong));
     std::string why;
     CHECK(passes_trial(std::make_unique<WrongBit>(wrong), why) == (wrong == In::kNone));

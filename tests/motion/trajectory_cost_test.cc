@@ -34,7 +34,7 @@ RobotBody body_of(float full_speed) {
 
 /// What a robot at (0, 0) in the open, its goal 4 m ahead, would pay for one command held all the time.
 Cost cost_of(const Command& command, float stood_s, float turned = 0.0F, bool walled_in = false,
-             float full_speed = 0.6F, bool alone = false) {
+             float full_speed = 0.6F, bool alone = false, float wound_rad = 0.0F) {
   test::Guided ground;
   if (walled_in)
     ground.wall({2.0, -4.0}, {2.0, 6.0})
@@ -53,7 +53,7 @@ Cost cost_of(const Command& command, float stood_s, float turned = 0.0F, bool wa
                           RobotState{},
                           {4.0F, 0.0F},
                           turned,
-                          {stood_s, guide.time_to_go(0.0F, 0.0F), alone},
+                          {stood_s, guide.time_to_go(0.0F, 0.0F), alone, wound_rad},
                           0.24F},
                          held, 1e9F);
 }
@@ -92,6 +92,16 @@ TEST_CASE("turning to the other side than before has its price, once") {
   const float left_again = cost_of({0.3F, 0.5F}, 0.0F, 1.0F).total();
   CHECK(cost_of({0.3F, 0.5F}, 0.0F, -1.0F).total() == Approx(left_again + 1.5F).margin(0.01));
   CHECK(cost_of({0.3F, 0.5F}, 0.0F, 0.0F).total() == Approx(left_again).margin(0.01));
+}
+
+TEST_CASE("having turned by more than half a circle without getting on, it is cheaper to turn back than right round") {
+  const auto cost_wound = [](float wound_rad, float turn_radps) {
+    return cost_of({0.0F, turn_radps}, 0.0F, 0.0F, false, 0.6F, false, wound_rad).time;
+  };
+  CHECK(cost_wound(3.5F, -0.6F) < cost_wound(3.5F, 0.6F) - 2.0F);
+  CHECK(cost_wound(-3.5F, 0.6F) < cost_wound(-3.5F, -0.6F) - 2.0F);
+  CHECK(cost_wound(1.0F, 0.3F) == cost_wound(0.0F, 0.3F));  // within half a circle it may turn either way
+  CHECK(cost_wound(5.0F, 0.0F) == Approx(cost_wound(0.0F, 0.0F) + 2.0F * (5.0F - 3.14159F)).margin(0.01));
 }
 
 TEST_CASE("a reversal is worth so much way: at three times the speed a third of the time") {

@@ -28,7 +28,11 @@ std::string drive(const std::filesystem::path& folder, bool with_truth) {
     record->scan.sequence = static_cast<std::uint32_t>(1 + i / 5);
     record->scan.stamp = Time{Duration{100'000'000LL * (i / 5)}};
     record->pose.map_from_robot = {0.02 * i, 0.5, 0};
-    record->verdict.reasons = i == 0 ? Reason::kStopZone | Reason::kNoGoal : Reason::kNone;
+    record->verdict.reasons = i == 0             ? Reason::kStopZone | Reason::kNoGoal
+                              : i / 10 == 4      ? Reason::kMotionMismatch | Reason::kUnwatched
+                              : i == 70          ? Reason::kScanStale
+                              : i > 90 && i < 95 ? Reason::kEmergencyStop | Reason::kLatched
+                                                 : Reason::kNone;
     tracks[0].stamp = tracks[0].last_seen = record->scan.stamp;
     tracks[0].position_in_map = {1, 0.1 * i};
     const std::array<TrueMover, 1> movers{{{4, {1, 2}, {0, -0.4}, 0.25, i == 50}}};
@@ -38,6 +42,7 @@ std::string drive(const std::filesystem::path& folder, bool with_truth) {
     truth.contacts = 2;
     truth.contacts_caused = 1;
     truth.forced_movers = i < 50 ? 0 : 1;
+    truth.social = {0.02 * i, 0.01 * i, 0.5, 0.25};
     RunSample sample{*record, tracks};
     if (with_truth) sample.truth = &truth;
     sample.tick_took = Duration{i == 100 ? 3'000'000 : 1'000'000};
@@ -97,6 +102,10 @@ TEST_CASE("the summary has every figure of the run") {
   CHECK(j["min_clearance_m"].get<double>() == Approx(1.0));
   CHECK(j["min_mover_clearance_m"] == 0.75);
   CHECK(j["forced_movers"] == 1);
+  CHECK(j["intimate_s"] == 2.0);
+  CHECK(j["personal_s"] == 1.0);
+  CHECK(j["slowed_m"] == 0.5);
+  CHECK(j["turned_rad"] == 0.25);
   CHECK(j["contacts"] == 2);
   CHECK(j["contacts_caused"] == 1);
   CHECK(j["max_turn_deg"].get<double>() == Approx(0.0).margin(1e-9));
@@ -105,6 +114,7 @@ TEST_CASE("the summary has every figure of the run") {
   CHECK(j["jerk_max_mps3"] == 0.0);
   CHECK(j["ticks"] == 101);
   CHECK(j["missed_ticks"] == 0);
+  CHECK(j["faults"] == 2);  // an emergency stop is none
   CHECK(j["not_recorded"].empty());
   CHECK(j["tick_ms"]["p50"] == 1.0);
   CHECK(j["tick_ms"]["max"] == 3.0);
@@ -122,7 +132,7 @@ TEST_CASE("what only a world can know is null in a replay") {
   const Json j = Json::parse(drive(scratch.folder(), false));
   for (const char* key :
        {"success", "min_clearance_m", "min_mover_clearance_m", "forced_movers", "contacts", "contacts_caused",
-        "accel_max_mps2", "jerk_p99_mps3", "jerk_max_mps3", "mover_rule", "detour_m"}) {
+        "slowed_m", "accel_max_mps2", "jerk_p99_mps3", "jerk_max_mps3", "mover_rule", "detour_m"}) {
     INFO(key);
     CHECK(j.at(key).is_null());
   }

@@ -160,7 +160,7 @@ TEST_CASE("a mover that would run into the robot beside it stays where it is, an
   const Scenario scenario = crowded_room(scratch, 1);
   const Walls walls(load_aria_map(scenario.map_file));
   const FreeGrid grid(walls, 0.19, scenario.start.position(), scenario.goal);
-  Wanderers wanderers(scenario, walls, grid, 2);
+  Wanderers wanderers({scenario, walls, grid}, 2);
   const MoverTruth mover = wanderers.movers()[0];
   const double bearing = mover.heading + kPi / 3;
   const Footprint narrow{.front_m = 0.2, .rear_m = 0.2, .half_width_m = 0.05};

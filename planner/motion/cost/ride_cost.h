@@ -51,7 +51,7 @@ class TimeCost {
 
   /// What the way from where a trajectory ends costs.
   [[nodiscard]] float price_to_go(const RobotState& end) const noexcept {
-    return s_.stall.is_alone ? to_go(end) : (1.0F + extra_) * to_go(end);
+    return unwinding_s(end) + (s_.stall.is_alone ? to_go(end) : (1.0F + extra_) * to_go(end));
   }
 
   [[nodiscard]] bool is_there(const RobotState& now) const noexcept {
@@ -62,6 +62,10 @@ class TimeCost {
 
  private:
   [[nodiscard]] bool has_way() const noexcept { return s_.time_to_go(s_.start) < Guide::kNoWay_s; }
+  [[nodiscard]] float unwinding_s(const RobotState& end) const noexcept {
+    const float wound = std::fabs(s_.stall.wound_rad + end.heading - s_.start.heading);
+    return price::kWound * std::max(0.0F, wound - cell::kPiF);
+  }
   /// Seconds from where a trajectory ends, and a second for facing across the way there, two for facing back.
   [[nodiscard]] float to_go(const RobotState& end) const noexcept {
     const float there = s_.time_to_go(end);
