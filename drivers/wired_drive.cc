@@ -5,7 +5,7 @@
 #include <span>
 
 #include "drivers/arcos/arcos.h"
-#include "drivers/canopen/pdo.h"
+#include "drivers/canopen/cia402.h"
 
 namespace jaywalk {
 namespace {
@@ -138,6 +138,19 @@ std::string coded(const char* format, std::uint32_t number) {
 }
 
 }  // namespace
+
+void require_axes(const std::array<CanAxis, 2>& axes, const AxisNumbers& numbers) {
+  const std::string kind = numbers.kind;
+  for (const auto& [node, per_rad] : axes) {
+    const bool fits = node >= numbers.lowest && node <= numbers.highest && node != numbers.own;
+    if (fits && std::isfinite(per_rad) && per_rad != 0.0) continue;
+    throw StartupError(kind + " " + std::to_string(node) + ": cannot be set up so",
+                       "give it a number from " + std::to_string(numbers.lowest) + " to " +
+                           std::to_string(numbers.highest) + " other than the controller's, and its units per radian");
+  }
+  if (axes[0].node == axes[1].node)
+    throw StartupError(kind + " " + std::to_string(axes[0].node) + ": stands for both wheels", "give each its own");
+}
 
 std::string odrive_error_words(std::uint32_t errors) { return words_of(kOdriveErrors, errors); }
 

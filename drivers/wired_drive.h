@@ -1,9 +1,12 @@
 #pragma once
 // Drive bases on wires, and the checks that all of them share.
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "drivers/can/can_bus.h"
@@ -50,6 +53,39 @@ class EmergencyBrake {
   /// Tells the drives to stop as fast as they were set to; does not wait.
   virtual void brake() noexcept = 0;
 };
+
+/// Frames that tell two drives to stop, over a place of its own on their bus.
+class FrameBrake final : public EmergencyBrake {
+ public:
+  /// `bus` outlives it and belongs to the thread that brakes.
+  FrameBrake(CanBus& bus, std::vector<CanFrame> frames) noexcept : bus_(bus), frames_(std::move(frames)) {}
+  /// Ignores whether a frame is taken: there is no third way, and it is said again as long as it has to be.
+  void brake() noexcept override {
+    for (const CanFrame& frame : frames_) static_cast<void>(bus_.send(frame));
+  }
+
+ private:
+  CanBus& bus_;
+  std::vector<CanFrame> frames_;
+};
+
+/// One wheel's drive on a CAN bus.
+struct CanAxis {
+  std::uint8_t node = 0;  ///< its number; of a VESC the controller's
+  /// Counts, motor turns or electrical turns (pole pairs times motor turns) a radian of the wheel; negative where the
+  /// motor is mounted the other way round.
+  double per_rad = 0.0;
+};
+
+/// Numbers that drives of one kind may have.
+struct AxisNumbers {
+  const char* kind;  ///< "ODrive node"
+  int lowest = 0, highest = 0;
+  int own = -1;  ///< the controller's
+};
+
+/// Throws StartupError for an axis without a scale, with a number that its kind cannot have, or with the other's.
+void require_axes(const std::array<CanAxis, 2>& axes, const AxisNumbers& numbers);
 
 /// True where a wheel's counter jumped, by a restart or a slip: the difference is no way.
 ///

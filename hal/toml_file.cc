@@ -6,9 +6,9 @@
 #include <regex>
 #include <sstream>
 
+#include "hal/setting_keys.h"
 #include "hal/shown_text.h"
 #include "hal/text_file.h"
-#include "hal/toml_settings.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk {

@@ -175,7 +175,7 @@ class BoundKeys {
 /// A parsed file. Throws StartupError when it cannot be read or is not TOML.
 class TomlFile {
  public:
-  /// `keys` outlives it. `settings`, KEY=VALUE each (hal/toml_settings.h), stand in place of the file's own.
+  /// `keys` outlives it. `settings`, KEY=VALUE each (hal/setting_keys.h), stand in place of the file's own.
   TomlFile(const std::filesystem::path& file, const FileKeys& keys, const std::vector<std::string>& settings = {});
   [[nodiscard]] TomlTable root() const { return {file_, *keys_, table_, ""}; }
 

@@ -8,12 +8,21 @@
 #include <vector>
 
 #include "apps/bench/bench.h"
+#include "apps/jaywalk/commands.h"
 #include "apps/jaywalk/progress.h"
 #include "apps/rivals/paper_mode.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk {
 namespace {
+
+struct BenchOptions {
+  std::optional<std::filesystem::path> json;  ///< file for the rows; the table on the terminal comes always
+  int largest = 2048;                         ///< cells a side
+  std::optional<std::filesystem::path> map;   ///< one more map, of lines or discs, scaled to each size
+};
+
+BenchOptions bench_options;
 
 constexpr double kCell_m = 0.1;
 constexpr int kDecisions = 101;
@@ -203,8 +212,6 @@ void write_rows(const std::filesystem::path& file, const nlohmann::ordered_json&
   if (!out.flush()) throw StartupError(file.string() + ": the disk did not take all of it", "choose another --json");
 }
 
-}  // namespace
-
 int run_bench(const BenchOptions& options) {
   const std::vector<BenchMap> maps = all_maps(options);
   if (options.json) refuse_unwritable(*options.json);
@@ -215,6 +222,18 @@ int run_bench(const BenchOptions& options) {
     bench.measure(maps[k], static_cast<double>(k) / static_cast<double>(maps.size()));
   if (options.json) write_rows(*options.json, bench.rows());
   return 0;
+}
+
+}  // namespace
+
+void add_bench(CLI::App& app, int& exit_code) {
+  CLI::App* bench = app.add_subcommand("bench", "Measure solver and planner against what a user would pick instead");
+  bench->add_option("--json", bench_options.json, "File for the rows");
+  bench->add_option("--map", bench_options.map, "One more map (.map or .txt), scaled to each size");
+  bench->add_option("--largest", bench_options.largest, "Largest map, cells a side")
+      ->check(CLI::IsMember({256, 512, 1024, 2048}))
+      ->capture_default_str();
+  bench->callback([&exit_code] { exit_code = run_bench(bench_options); });
 }
 
 }  // namespace jaywalk

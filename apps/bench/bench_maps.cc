@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "apps/bench/bench.h"
-#include "apps/jaywalk/map_cells.h"
+#include "apps/rivals/paper_mode.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk {

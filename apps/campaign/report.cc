@@ -5,9 +5,207 @@
 
 #include "apps/campaign/charts.h"
 #include "apps/campaign/statistics.h"
+#include "apps/report/markup.h"
 #include "hal/text_file.h"
 
 namespace jaywalk::campaign {
+namespace {
+
+constexpr const char* kHead = "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>";
+constexpr const char* kStyle =
+    R"(</title>
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<style>
+:root{color-scheme:light dark}
+body{font:16px/1.5 sans-serif;max-width:75rem;margin:2rem auto;padding:0 1rem;overflow-wrap:break-word}
+.cards{display:flex;flex-wrap:wrap;gap:1rem}
+.cards div{border:1px solid #8886;border-radius:.5rem;padding:.6rem 1rem;min-width:8rem}
+.cards b{display:block;font-size:1.6rem}
+table{border-collapse:collapse;margin:.5rem 0 1.5rem;font-size:.85rem}
+th,td{padding:.2rem .7rem;border-bottom:1px solid #8886;text-align:right}
+th{cursor:pointer;vertical-align:bottom}
+th:first-child,td:first-child{text-align:left}
+details table{font-size:.7rem}
+details th,details td{padding:.15rem .25rem}
+details td:first-child{overflow-wrap:anywhere}
+code{background:#8883;padding:.1rem .3rem;overflow-wrap:anywhere}
+figure{margin:1rem 0}
+figure svg{max-width:100%;height:auto;background:#fff}
+.wide{overflow-x:auto}
+.failures{display:grid;grid-template-columns:repeat(auto-fill,minmax(min(22rem,100%),1fr));gap:1.5rem}
+.failures img{width:100%;border:1px solid #8886;background:#fff}
+@media(prefers-color-scheme:dark){figure svg,.failures img{filter:invert(.9) hue-rotate(180deg)}}
+</style>
+</head>
+<body>
+)";
+
+/// A click on a head sorts by its column, another one the other way; what is no number comes last.
+constexpr const char* kSorting = R"(<script>
+document.querySelectorAll('th').forEach(head => head.onclick = () => {
+  const [first, ...rows] = head.closest('table').rows, down = head.dataset.down = head.dataset.down ? '' : '1';
+  const text = row => row.cells[head.cellIndex].textContent, number = row => parseFloat(text(row));
+  rows.sort((a, b) => isNaN(number(a)) - isNaN(number(b)) || (down ? 1 : -1) * (number(a) - number(b) || text(a).localeCompare(text(b))));
+  first.after(...rows);
+});
+</script>
+)";
+
+/// RFC 4648.
+std::string base64(const std::string& bytes) {
+  constexpr const char* kLetters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string out;
+  for (std::size_t k = 0; k < bytes.size(); k += 3) {
+    unsigned triple = 0;
+    for (std::size_t j = 0; j < 3; ++j)
+      triple = triple << 8U | (k + j < bytes.size() ? static_cast<unsigned char>(bytes[k + j]) : 0U);
+    for (std::size_t j = 0; j < 4; ++j)
+      out += k + j <= bytes.size() ? kLetters[triple >> (18U - 6U * static_cast<unsigned>(j)) & 63U] : '=';
+  }
+  return out;
+}
+
+std::string cells(const std::vector<std::string>& row, const std::string& kind) {
+  std::string out = "<tr>";
+  for (const std::string& cell : row) out += "<" + kind + ">" + as_markup(cell) + "</" + kind + ">";
+  return out + "</tr>\n";
+}
+
+/// RFC 4180.
+std::string csv_of(const ReportTable& table) {
+  std::string out;
+  const auto add = [&out](const std::vector<std::string>& row) {
+    for (std::size_t k = 0; k < row.size(); ++k) {
+      std::string cell = row[k];
+      for (std::size_t at = cell.find('"'); at != std::string::npos; at = cell.find('"', at + 2))
+        cell.insert(at, 1, '"');
+      out += (k == 0 ? "\"" : ",\"") + cell + "\"";
+    }
+    out += "\r\n";
+  };
+  add(table.head);
+  for (const auto& row : table.rows) add(row);
+  return out;
+}
+
+/// Letters and digits of a title, words apart by '_'.
+std::string file_name(const std::string& title) {
+  std::string out;
+  for (const char c : title) {
+    const bool is_word = (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+    if (is_word)
+      out += c;
+    else if (!out.empty() && out.back() != '_')
+      out += '_';
+  }
+  return out;
+}
+
+/// `folders`: the first cells link to folders of the campaign's.
+std::string table_of(const ReportTable& table, bool folders = false) {
+  std::string out = "<h3>" + as_markup(table.title) + "</h3>\n<div class=\"wide\"><table>\n" + cells(table.head, "th");
+  for (const auto& row : table.rows) {
+    std::string line = cells(row, "td");
+    if (const std::string name = as_markup(row[0]); folders)
+      line.replace(line.find(name), name.size(), "<a href=\"../" + name + "/\">" + name + "</a>");
+    out += line;
+  }
+  return out + "</table></div>\n<p><a download=\"" + file_name(table.title) + ".csv\" href=\"data:text/csv;base64," +
+         base64(csv_of(table)) + "\">CSV</a></p>\n";
+}
+
+std::string runs_of(const ReportTable& runs) {
+  return "<details><summary>" + std::to_string(runs.rows.size()) + " runs, a row each</summary>\n" +
+         table_of(runs, true) + "</details>\n";
+}
+
+std::string cards_of(const std::vector<ReportCard>& cards) {
+  std::string out = "<div class=\"cards\">\n";
+  for (const ReportCard& card : cards)
+    out += "<div><b>" + as_markup(card.figure) + "</b>" + as_markup(card.what) + "</div>\n";
+  return out + "</div>\n";
+}
+
+std::string section_of(const ReportSection& section) {
+  std::string out = "<h2>" + as_markup(section.title) + "</h2>\n";
+  if (!section.text.empty()) out += "<p>" + as_markup(section.text) + "</p>\n";
+  for (const ReportChart& chart : section.charts)
+    out += "<figure>\n" + chart.svg + "<figcaption>" + as_markup(chart.title) + "</figcaption>\n</figure>\n";
+  for (const ReportTable& table : section.tables) out += table_of(table);
+  return out;
+}
+
+std::string failure_of(const ReportFailure& failure) {
+  std::string out = "<article>\n<h3>" + as_markup(failure.run) + "</h3>\n<p>" + as_markup(failure.what) + "</p>\n";
+  if (!failure.svg.empty())
+    out += "<img loading=\"lazy\" alt=\"the run, moving\" src=\"data:image/svg+xml;base64," + base64(failure.svg) +
+           "\">\n";
+  out += "<p><code>" + as_markup(failure.repeat) + "</code></p>\n";
+  if (!failure.why.empty()) out += "<p><code>" + as_markup(failure.why) + "</code></p>\n";
+  return out + "</article>\n";
+}
+
+/// A '|' would end a cell.
+std::string cell_of(const std::string& text) {
+  std::string out;
+  for (const char c : text) out += c == '|' ? std::string("\\|") : std::string(1, c);
+  return out;
+}
+
+std::string cells(const std::vector<std::string>& row) {
+  std::string out = "|";
+  for (const std::string& cell : row) out += " " + cell_of(cell) + " |";
+  return out + "\n";
+}
+
+std::string table_in_markdown(const ReportTable& table) {
+  std::string out = "**" + table.title + "**\n\n" + cells(table.head) + "|";
+  for (std::size_t k = 0; k < table.head.size(); ++k) out += k == 0 ? "---|" : "---:|";
+  out += "\n";
+  for (const auto& row : table.rows) out += cells(row);
+  return out + "\n";
+}
+
+std::string section_in_markdown(const ReportSection& section) {
+  std::string out = "## " + section.title + "\n\n";
+  if (!section.text.empty()) out += section.text + "\n\n";
+  for (const ReportChart& chart : section.charts) out += "![" + chart.title + "](charts/" + chart.name + ".svg)\n\n";
+  for (const ReportTable& table : section.tables) out += table_in_markdown(table);
+  return out;
+}
+
+std::string failure_of(const ReportFailure& failure, std::size_t number) {
+  const std::string picture = "failures/" + std::to_string(number) + ".svg";
+  const std::string name = failure.svg.empty() ? failure.run : "[" + failure.run + "](" + picture + ")";
+  std::string out = std::to_string(number) + ". " + name + ": " + failure.what + "\n   `" + failure.repeat + "`\n";
+  if (!failure.why.empty()) out += "   `" + failure.why + "`\n";
+  return out;
+}
+
+}  // namespace
+
+std::string html_of(const ReportPage& page) {
+  std::string out = kHead + as_markup(page.title) + kStyle + "<h1>" + as_markup(page.title) + "</h1>\n<p>" +
+                    as_markup(page.text) + "</p>\n" + cards_of(page.cards);
+  for (const ReportSection& section : page.sections) out += section_of(section);
+  out += runs_of(page.runs) + "<h2>Failures</h2>\n";
+  out += page.failures.empty() ? "<p>None.</p>\n<div>\n" : "<div class=\"failures\">\n";
+  for (const ReportFailure& failure : page.failures) out += failure_of(failure);
+  return out + "</div>\n" + kSorting + "</body>\n</html>\n";
+}
+
+std::string markdown_of(const ReportPage& page) {
+  std::string out = "# " + page.title + "\n\n" + page.text + "\n\n";
+  for (const ReportCard& card : page.cards) out += "- **" + card.figure + "** " + card.what + "\n";
+  out += "\n";
+  for (const ReportSection& section : page.sections) out += section_in_markdown(section);
+  out += "## Failures\n\n";
+  if (page.failures.empty()) return out + "None.\n";
+  std::size_t number = 0;
+  for (const ReportFailure& failure : page.failures) out += failure_of(failure, ++number);
+  return out;
+}
+
 namespace {
 
 std::vector<TurnBars> turn_bars(const ReportedTables& tables) {

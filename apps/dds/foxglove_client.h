@@ -12,7 +12,7 @@
 #include <string_view>
 
 #include "apps/dds/dds_topics.h"
-#include "apps/view/door_stream.h"
+#include "apps/view/secret.h"
 
 namespace jaywalk::dds {
 struct FoxgloveMessage {

@@ -2,7 +2,6 @@
 #include <string>
 
 #include "apps/formats/bag_file.h"
-#include "apps/formats/byte_file.h"
 #include "apps/formats/mcap_writer.h"
 #include "apps/formats/wire_reader.h"
 #include "hal/shown_text.h"

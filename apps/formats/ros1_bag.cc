@@ -7,7 +7,6 @@
 #include <string>
 
 #include "apps/formats/bag_file.h"
-#include "apps/formats/byte_file.h"
 #include "apps/formats/wire_reader.h"
 #include "hal/shown_text.h"
 #include "hal/types/errors.h"

@@ -13,7 +13,7 @@ namespace jaywalk::exchange {
 enum class Wire {
   kCdr,   ///< OMG's CDR (XCDR1) behind its encapsulation header: numbers at multiples of their size, either byte order
   kRos1,  ///< little endian, packed; so are the records of bags and MCAP files
-  kProtobuf,  ///< foxglove_input.h reads it
+  kProtobuf,  ///< ros_input.h reads it
   kOther      ///< nothing here reads it
 };
 

@@ -12,9 +12,11 @@
 #include "apps/setup/armed_session.h"
 #include "apps/setup/calibration.h"
 #include "apps/setup/guided_drive.h"
+#include "apps/setup/wiring_checks.h"
 #include "apps/why/recorded_run.h"
 #include "firmware/control_setup.h"
 #include "firmware/recording/recorder.h"
+#include "firmware/robot/commissioned.h"
 #include "hal/text_file.h"
 #include "hal/types/errors.h"
 
@@ -89,7 +91,7 @@ std::string svg_of(const Calibration& calibration) {
   return svg + foot;
 }
 
-SessionOptions session_options;
+SessionOptions calibrate_options, commission_options;
 std::filesystem::path plot_folder = "out/calibrate";
 
 /// A calibration drive: a log of each scanner, and the wheel radii in the drives' settings. The loop counts with the
@@ -102,7 +104,7 @@ struct Drive {
 
 Drive drive_robot() {
   ArmedSession session(
-      session_options, "calibrate",
+      calibrate_options, "calibrate",
       "The robot will drive 1.5 m ahead and back, and a circle to each side, for about a minute. Are 2 m "
       "free ahead, and a metre to each side and behind?");
   const RobotFile& file = session.file();
@@ -207,7 +209,7 @@ void write_plot(const std::filesystem::path& file, const Calibration& calibratio
 }
 
 int calibrate_robot() {
-  const std::filesystem::path& what = session_options.robot;
+  const std::filesystem::path& what = calibrate_options.robot;
   const bool is_folder = std::filesystem::is_directory(what);
   if (!is_folder)
     require_readable(what, what.string() + ": ", "give a robot file, a run's folder or its recording.jwr");
@@ -227,18 +229,54 @@ int calibrate_robot() {
   return 1;
 }
 
+// Commissioning: each wheel is turned a little.
+
+int commission_robot(const SessionOptions& options) {
+  ArmedSession session(options, "commission",
+                       "The wheels will turn, each by 12 cm, forward and back. Is half a metre free all round?");
+  const RobotFile& file = session.file();
+  withdraw_commissioned(options.robot, file);
+  const NudgeSetup setup{.model = file.setup.model, .tick = file.setup.tick()};
+  std::vector<Nudge> nudges;
+  try {
+    nudges = nudge_wheels(setup, session.drive(), session.lasers(), session.clock(), ArmedSession::stopped);
+  } catch (const StartupError&) {
+    session.disarm();
+    throw;
+  }
+  session.disarm();
+  const std::vector<CheckedPart> checks = judge_nudges(nudges, setup.model);
+  for (const CheckedPart& check : checks)
+    std::printf("%-4s  %-15s %s\n", check.is_well ? "ok" : "FAIL", check.part.c_str(), check.said.c_str());
+  write_commissioned(options.robot, file, checks);
+  return std::all_of(checks.begin(), checks.end(), [](const CheckedPart& check) { return check.is_well; }) ? 0 : 1;
+}
+
+/// Options of a command that arms the drives.
+void add_session_options(CLI::App& command, SessionOptions& options, const char* may) {
+  command.add_option("--socket", options.control_socket, "Control socket (default: the file's)");
+  command.add_flag("--yes", options.yes, may);
+  command.add_flag("--allow-no-realtime", options.allow_no_realtime,
+                   "Go on where the kernel refuses real-time priority or locked memory");
+}
+
 }  // namespace
+
+void add_commission(CLI::App& app, int& exit_code) {
+  CLI::App* command = app.add_subcommand("commission", "Turn each wheel a little and check how all is wired");
+  command->add_option("robot", commission_options.robot, "Robot file (TOML; docs/tutorial/first-real-robot.md)")
+      ->required();
+  add_session_options(*command, commission_options, "The wheels may turn: do not ask");
+  command->callback([&exit_code] { exit_code = commission_robot(commission_options); });
+}
 
 void add_calibrate(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("calibrate", "Wheel radii, track width and laser mount, by a drive or a run");
   command
-      ->add_option("robot", session_options.robot, "Robot file, which is driven; or a run's folder, or recording.jwr")
+      ->add_option("robot", calibrate_options.robot, "Robot file, which is driven; or a run's folder, or recording.jwr")
       ->required();
   command->add_option("--out", plot_folder, "Folder for calibration.svg, the residuals")->capture_default_str();
-  command->add_option("--socket", session_options.control_socket, "Control socket (default: the file's)");
-  command->add_flag("--yes", session_options.yes, "The robot may drive: do not ask");
-  command->add_flag("--allow-no-realtime", session_options.allow_no_realtime,
-                    "Go on where the kernel refuses real-time priority or locked memory");
+  add_session_options(*command, calibrate_options, "The robot may drive: do not ask");
   command->callback([&exit_code] { exit_code = calibrate_robot(); });
 }
 

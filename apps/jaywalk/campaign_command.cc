@@ -7,8 +7,8 @@
 #include <thread>
 #include <vector>
 
-#include "apps/campaign/plan_text.h"
-#include "apps/campaign/run_pool.h"
+#include "apps/campaign/campaign.h"
+#include "apps/campaign/campaign_folder.h"
 #include "apps/jaywalk/commands.h"
 #include "apps/jaywalk/progress.h"
 #include "hal/shown_text.h"
@@ -16,6 +16,15 @@
 
 namespace jaywalk {
 namespace {
+
+struct CampaignOptions {
+  std::filesystem::path file;
+  std::filesystem::path out = "out/campaign";
+  int jobs = 0;  ///< runs at a time; 0: as many as this process may use processors
+  campaign::Shard shard;
+};
+
+CampaignOptions campaign_options;
 
 using campaign::Keep;
 using campaign::PlannedRun;
@@ -143,18 +152,6 @@ class Share {
   int stopped_ = 1;
 };
 
-}  // namespace
-
-campaign::Shard shard_from(const std::string& word) {
-  campaign::Shard shard;
-  const char* const end = word.data() + word.size();
-  const auto part = std::from_chars(word.data(), end, shard.part);
-  const bool divided = part.ec == std::errc() && part.ptr != end && *part.ptr == '/';
-  const auto of = divided ? std::from_chars(part.ptr + 1, end, shard.of) : part;
-  if (divided && of.ec == std::errc() && of.ptr == end && shard.part >= 1 && shard.part <= shard.of) return shard;
-  throw StartupError("--shard: " + shown(word) + " is no share", "give I/N, 1/4 to 4/4 say");
-}
-
 int run_campaign(const CampaignOptions& options) {
   const campaign::Campaign campaign = campaign::load_campaign(options.file);
   const campaign::Plan plan = campaign::plan_of(campaign);
@@ -167,6 +164,34 @@ int run_campaign(const CampaignOptions& options) {
     std::fprintf(stderr, "jaywalk: %zu runs crashed or were refused; the report names them\n", share.not_run());
   std::printf("finished; see it with jaywalk report %s\n", options.out.c_str());
   return share.not_run() > 0 ? 1 : 0;
+}
+
+/// "2/4": the second of four. Throws StartupError for what is none.
+campaign::Shard shard_from(const std::string& word) {
+  campaign::Shard shard;
+  const char* const end = word.data() + word.size();
+  const auto part = std::from_chars(word.data(), end, shard.part);
+  const bool divided = part.ec == std::errc() && part.ptr != end && *part.ptr == '/';
+  const auto of = divided ? std::from_chars(part.ptr + 1, end, shard.of) : part;
+  if (divided && of.ec == std::errc() && of.ptr == end && shard.part >= 1 && shard.part <= shard.of) return shard;
+  throw StartupError("--shard: " + shown(word) + " is no share", "give I/N, 1/4 to 4/4 say");
+}
+
+}  // namespace
+
+void add_campaign(CLI::App& app, int& exit_code) {
+  CLI::App* command = app.add_subcommand("campaign", "Many simulated runs, as one experiment that can be interrupted");
+  command->add_option("campaign", campaign_options.file, "Campaign file (TOML; docs/how-to/campaigns.md)")->required();
+  command->add_option("--jobs", campaign_options.jobs, "Runs at a time (default: all processors)")
+      ->check(CLI::Range(1, 4096));
+  command
+      ->add_option_function<std::string>(
+          "--shard", [](const std::string& word) { campaign_options.shard = shard_from(word); },
+          "The I-th of N shares of the runs alone")
+      ->type_name("I/N");
+  command->add_option("--out", campaign_options.out, "Folder for the runs; shares may have one in common")
+      ->capture_default_str();
+  command->callback([&exit_code] { exit_code = run_campaign(campaign_options); });
 }
 
 }  // namespace jaywalk

@@ -8,7 +8,7 @@
 
 #include "apps/campaign/campaign.h"
 #include "apps/jaywalk/commands.h"
-#include "firmware/robot/robot_file_keys.h"
+#include "firmware/robot/robot_file.h"
 #include "hal/robot_model_file.h"
 #include "hal/shown_text.h"
 #include "hal/sim/scenario.h"

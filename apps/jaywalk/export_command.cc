@@ -1,7 +1,7 @@
 #include <cstdio>
 #include <string>
 
-#include "apps/formats/run_exporter.h"
+#include "apps/formats/mcap_writer.h"
 #include "apps/jaywalk/commands.h"
 #include "apps/jaywalk/progress.h"
 #include "apps/why/recorded_run.h"
@@ -9,6 +9,13 @@
 
 namespace jaywalk {
 namespace {
+
+struct ExportOptions {
+  std::filesystem::path run;  ///< a run's folder, or a recording.jwr
+  std::filesystem::path out;  ///< empty: run.mcap in the run's folder
+};
+
+ExportOptions export_options;
 
 void export_all(RecordedRun& run, RunExporter& exporter) {
   SeenRun again(run);
@@ -25,8 +32,6 @@ std::filesystem::path place_of(const RecordedRun& run) {
   return run.is_in_parts() ? run.file() : run.file().parent_path();
 }
 
-}  // namespace
-
 int run_export(const ExportOptions& options) {
   RecordedRun run(options.run);
   const std::filesystem::path out = options.out.empty() ? place_of(run) / "run.mcap" : options.out;
@@ -40,6 +45,15 @@ int run_export(const ExportOptions& options) {
               static_cast<unsigned long long>(exporter.file().messages()), exporter.file().topics().size(),
               static_cast<double>(exporter.file().last_ns() - exporter.file().first_ns()) * 1e-9);
   return 0;
+}
+
+}  // namespace
+
+void add_export(CLI::App& app, int& exit_code) {
+  CLI::App* command = app.add_subcommand("export", "A run's recording as MCAP, for Foxglove and ros2 bag");
+  command->add_option("run", export_options.run, "A run's folder, or its recording.jwr")->required();
+  command->add_option("--out", export_options.out, "File to write (default: run.mcap in the run's folder)");
+  command->callback([&exit_code] { exit_code = run_export(export_options); });
 }
 
 }  // namespace jaywalk

@@ -13,6 +13,13 @@
 namespace jaywalk {
 namespace {
 
+struct FaultsOptions {
+  std::filesystem::path out = "out/faults";
+  double rate_hz = 50.0;  ///< of the control loop
+};
+
+FaultsOptions faults_options;
+
 using faults::FaultResult;
 
 double in_ms(Duration d) { return 1e3 * to_seconds(d); }
@@ -110,8 +117,6 @@ std::string markdown(const std::vector<FaultResult>& rows) {
   return text;
 }
 
-}  // namespace
-
 int run_faults(const FaultsOptions& options) {
   const std::filesystem::path scratch = options.out / "last_run";
   std::error_code failed;
@@ -130,6 +135,18 @@ int run_faults(const FaultsOptions& options) {
   const int count = static_cast<int>(rows.size());
   std::printf("%d of %d rows ok; %s\n", count - bad, count, table.string().c_str());
   return bad == 0 ? 0 : 1;
+}
+
+}  // namespace
+
+void add_faults(CLI::App& app, int& exit_code) {
+  CLI::App* faults =
+      app.add_subcommand("faults", "The fault matrix: every fault, drive and speed on the simulated robot");
+  faults->add_option("--out", faults_options.out, "Folder for faults.csv")->capture_default_str();
+  faults->add_option("--rate-hz", faults_options.rate_hz, "Rate of the control loop")
+      ->check(CLI::Range(25.0, 200.0))
+      ->capture_default_str();
+  faults->callback([&exit_code] { exit_code = run_faults(faults_options); });
 }
 
 }  // namespace jaywalk

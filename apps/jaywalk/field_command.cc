@@ -7,13 +7,26 @@
 
 #include "apps/bench/bench.h"
 #include "apps/jaywalk/commands.h"
-#include "apps/jaywalk/map_cells.h"
 #include "apps/rivals/paper_mode.h"
+#include "firmware/program/program.h"
 #include "hal/shown_text.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk {
 namespace {
+
+struct FieldOptions {
+  std::filesystem::path map;     ///< .yaml (map_server), .map (ARIA), .txt (cylinders), .png or .pgm
+  std::optional<Vec2> goal;      ///< in the map; default: the free cell nearest its middle
+  double inflation_m = 0.3;      ///< walls grow by this
+  std::optional<double> cell_m;  ///< of a picture without a YAML file, or of what has no cells (default there: 0.1 m)
+  Backend backend = Backend::kAuto;
+  int device = 0;           ///< CUDA's number
+  bool start_only = false;  ///< the start field alone: shortest ways, no potential solved
+  std::filesystem::path out = "out/field";
+};
+
+FieldOptions field_options;
 
 using paper::MapField;
 using paper::MapQuality;
@@ -88,8 +101,6 @@ std::string best_in_words(const std::optional<double>& best) {
   return text;
 }
 
-}  // namespace
-
 int run_field(const FieldOptions& options) {
   if (!(options.inflation_m >= 0.0 && options.inflation_m <= 5.0))
     throw StartupError("--inflation: outside 0 to 5 m", "give the robot's radius and a margin");
@@ -124,6 +135,30 @@ int run_field(const FieldOptions& options) {
               static_cast<double>(reach), best_in_words(best).c_str(), cold_time.p50_ms, warm_time.p50_ms,
               solver.backend(), (options.out / "field.npy").c_str());
   return cold.certified ? 0 : 1;
+}
+
+}  // namespace
+
+void add_field(CLI::App& app, int& exit_code) {
+  CLI::App* field = app.add_subcommand("field", "The potential field of a map alone");
+  field->add_option("map", field_options.map, "map_server YAML, ARIA .map, cylinders .txt, or a picture")->required();
+  field
+      ->add_option_function<std::vector<double>>(
+          "--goal",
+          [](const std::vector<double>& v) {
+            field_options.goal = Vec2{sound("--goal", v[0]), sound("--goal", v[1])};
+          },
+          "Goal X,Y in the map (default: the free cell nearest its middle)")
+      ->delimiter(',')
+      ->expected(2);
+  field->add_option("--inflation,--inflation_m", field_options.inflation_m, "Walls grow by this (m)")
+      ->capture_default_str();
+  field->add_option("--resolution", field_options.cell_m, "Metres a cell: of a picture, of lines or cylinders");
+  add_backend(*field, field_options.backend, field_options.device);
+  field->add_flag("--start-field", field_options.start_only,
+                  "The start field alone: shortest ways, no potential solved");
+  field->add_option("--out", field_options.out, "Folder for field.npy and field.json")->capture_default_str();
+  field->callback([&exit_code] { exit_code = run_field(field_options); });
 }
 
 }  // namespace jaywalk

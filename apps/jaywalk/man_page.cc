@@ -1,10 +1,9 @@
-#include "apps/jaywalk/man_page.h"
-
 #include <algorithm>
 #include <cstdio>
 #include <map>
 #include <string_view>
 
+#include "apps/jaywalk/commands.h"
 #include "hal/shown_text.h"
 #include "hal/types/errors.h"
 

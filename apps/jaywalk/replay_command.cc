@@ -28,6 +28,22 @@
 namespace jaywalk {
 namespace {
 
+struct ReplayOptions {
+  std::vector<std::filesystem::path> logs;
+  std::string format;                  ///< scan-odom, carmen, bag or jaywalk; empty: by what the file begins with
+  std::string scan_topic, odom_topic;  ///< of a bag; empty: the only one of its type
+  std::optional<Vec2> goal;            ///< default: the recording's last pose
+  std::optional<Pose2> laser_mount;    ///< robot_from_laser; default: the log's own word, else the robot's origin
+  std::string model;  ///< p3dx, wheelchair, or a robot model file; empty: p3dx, its laser at the origin
+  std::filesystem::path out = "out/replay";
+  bool save_map = false;                  ///< what the robot saw, as map_server files
+  bool mcap = false;                      ///< leave run.mcap as well
+  bool json = false;                      ///< print the summary, in place of a line
+  std::optional<view::ViewAddress> view;  ///< serve the live page here, until an interruption
+};
+
+ReplayOptions replay_options;
+
 constexpr double kGoalTolerance_m = 0.3;
 
 /// A line of numbers begins a scan-odom file; CARMEN's lines begin with a message's name.
@@ -267,8 +283,6 @@ int replay_recording(const ReplayOptions& options, FilePart part) {
   return whole ? (same ? 0 : 1) : interruption.exit_code();
 }
 
-}  // namespace
-
 int run_replay(ReplayOptions options) {
   for (std::filesystem::path& log : options.logs) {
     if (std::filesystem::exists(log / "recording.jwr")) log /= "recording.jwr";  // a run's folder
@@ -282,6 +296,50 @@ int run_replay(ReplayOptions options) {
     if (own.bytes > 0) return replay_recording(options, {own.at, own.bytes});
   }
   return replay_log(options, format);
+}
+
+}  // namespace
+
+void add_replay(CLI::App& app, int& exit_code) {
+  CLI::App* replay = app.add_subcommand("replay", "Run recorded laser and odometry through the pipeline");
+  replay
+      ->add_option("log", replay_options.logs,
+                   "SCAN.txt [ODOM.txt], a CARMEN log, a bag (.mcap, a ROS 2 bag's folder or .db3, a ROS 1 .bag), or "
+                   "recording.jwr; .gz is read as it is")
+      ->required();
+  replay
+      ->add_option("--format", replay_options.format, "scan-odom, carmen, bag or jaywalk (default: told from the file)")
+      ->check(CLI::IsMember({"scan-odom", "carmen", "bag", "jaywalk"}));
+  replay->add_option("--scan-topic", replay_options.scan_topic, "A bag's scans (default: the only LaserScan topic)");
+  replay->add_option("--odom-topic", replay_options.odom_topic, "A bag's odometry (default: the only Odometry topic)");
+  replay
+      ->add_option_function<std::vector<double>>(
+          "--goal",
+          [](const std::vector<double>& v) {
+            replay_options.goal = Vec2{sound("--goal", v[0]), sound("--goal", v[1])};
+          },
+          "Goal X,Y in the recording's frame (default: its last pose)")
+      ->delimiter(',')
+      ->expected(2);
+  replay
+      ->add_option_function<std::vector<double>>(
+          "--laser-mount",
+          [](const std::vector<double>& v) {
+            const auto part = [&](std::size_t k) { return sound("--laser-mount", v[k]); };
+            replay_options.laser_mount = Pose2{part(0), part(1), wrap_angle(part(2))};
+          },
+          "X,Y,YAW of the laser on the robot (m, m, rad)")
+      ->delimiter(',')
+      ->expected(3);
+  replay->add_option(
+      "--model", replay_options.model,
+      "Whose body it is: p3dx, wheelchair, or a robot model file (default: p3dx); its laser's mount too");
+  replay->add_flag("--save-map", replay_options.save_map, "Save what the robot saw: map.yaml and map.pgm (map_server)");
+  replay->add_option("--out", replay_options.out, "Folder for what the run leaves")->capture_default_str();
+  replay->add_flag("--mcap", replay_options.mcap, "Leave run.mcap as well, as export would");
+  replay->add_flag("--json", replay_options.json, "Print the summary, in place of a line");
+  add_view(*replay, replay_options.view);
+  replay->callback([&exit_code] { exit_code = run_replay(replay_options); });
 }
 
 }  // namespace jaywalk

@@ -10,6 +10,13 @@
 namespace jaywalk {
 namespace {
 
+struct ReportOptions {
+  std::vector<std::filesystem::path> folders;
+  std::filesystem::path out;  ///< of a campaign's report; empty: "report" in the first folder
+};
+
+ReportOptions report_options;
+
 constexpr const char* kBegun = "begun";
 
 /// Empty: pictures of an earlier report may not stand beside this one's.
@@ -36,8 +43,6 @@ void save(const campaign::ReportPage& page, const std::filesystem::path& out) {
   campaign::write_whole(out / "report.html", campaign::html_of(page), kBegun);
 }
 
-}  // namespace
-
 int run_report(const ReportOptions& options) {
   if (options.folders.size() == 1 && !campaign::is_campaign(options.folders.front())) {
     std::fputs(run_words(options.folders.front()).c_str(), stdout);
@@ -50,6 +55,15 @@ int run_report(const ReportOptions& options) {
     std::fprintf(stderr, "jaywalk: %zu runs are missing; the campaign's command goes on with them\n", report.missing());
   std::printf("See %s and %s\n", (out / "report.html").c_str(), (out / "report.md").c_str());
   return report.missing() > 0 ? 1 : 0;
+}
+
+}  // namespace
+
+void add_report(CLI::App& app, int& exit_code) {
+  CLI::App* command = app.add_subcommand("report", "A run in plain words, or a campaign's tables, charts and failures");
+  command->add_option("folders", report_options.folders, "A run's folder, or those of a campaign's shards")->required();
+  command->add_option("--out", report_options.out, "Folder of a campaign's report (default: report in the first)");
+  command->callback([&exit_code] { exit_code = run_report(report_options); });
 }
 
 }  // namespace jaywalk

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <charconv>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -11,8 +12,10 @@
 #include "apps/rivals/paper_mode.h"
 #include "apps/view/live_view.h"
 #include "firmware/loop_runner.h"
+#include "firmware/program/program.h"
 #include "firmware/recording/map_files.h"
 #include "firmware/safety/stop_zone.h"
+#include "hal/robot_model_file.h"
 #include "hal/shown_text.h"
 #include "hal/sim/simulation.h"
 #include "hal/types/errors.h"
@@ -20,6 +23,28 @@
 
 namespace jaywalk {
 namespace {
+
+/// A field an option of the command line: more than a struct has elsewhere.
+struct SimOptions {
+  std::filesystem::path scenario;
+  std::vector<std::string> settings = {};  ///< KEY=VALUE each, in place of the scenario's own
+  std::optional<std::uint64_t> seed;       ///< default: the scenario's
+  PlanMode mode = PlanMode::kFull;
+  bool constant_speed = false;
+  std::string rival;  ///< ControlSetup's
+  Backend backend = Backend::kAuto;
+  int device = 0;  ///< CUDA's number
+  std::filesystem::path out = "out/sim";
+  PartsKept parts = {};   ///< of recording and tables
+  bool save_map = false;  ///< what the robot saw, as map_server files
+  bool realtime = false;
+  bool mcap = false;                           ///< leave run.mcap as well
+  bool json = false;                           ///< print the summary, in place of a line
+  std::optional<view::ViewAddress> view = {};  ///< serve the live page there
+  bool until_arrived = false;                  ///< with it too: ends at the first arrival
+};
+
+SimOptions sim_options;
 
 /// PREFIX/bin/jaywalk has PREFIX/share/jaywalk/scenarios; a build lies in its sources, or a folder or two below.
 std::filesystem::path shipped_folder() {
@@ -207,8 +232,6 @@ RunEnd end_of(const SimOptions& options, const sim::Scenario& scenario, std::uin
           .title = scenario.name + ", seed " + std::to_string(seed) + ": " + ended};
 }
 
-}  // namespace
-
 int run_sim(SimOptions options) {
   options.scenario = scenario_named(options.scenario);
   const sim::Scenario scenario = scenario_for(options);
@@ -260,6 +283,50 @@ int run_sim(SimOptions options) {
   if (view) view->stay(interruption);
   if (ended == "interrupted") return interruption.exit_code();
   return ended == "reached" ? 0 : 1;
+}
+
+/// The parser's own numbers stop at the greatest without a word.
+std::uint64_t seed_of(const std::string& word) {
+  std::uint64_t seed = 0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), seed);
+  if (error == std::errc() && end == word.data() + word.size()) return seed;
+  throw StartupError("--seed: " + shown(word) + " is no seed", "give a whole number from 0 to 18446744073709551615");
+}
+
+}  // namespace
+
+void add_sim(CLI::App& app, int& exit_code) {
+  CLI::App* sim = app.add_subcommand("sim", "Run the whole controller on a simulated robot");
+  sim->add_option("scenario", sim_options.scenario, "Scenario file (docs/reference/scenarios.md) or shipped name")
+      ->required();
+  sim->add_option_function<std::string>(
+         "--seed", [](const std::string& word) { sim_options.seed = seed_of(word); },
+         "Seed of everything random, 0 or more (default: the scenario's)")
+      ->type_name("N");
+  sim->add_option("--set", sim_options.settings, "A setting in place of the scenario's own: movers.count=16")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+  add_choice<PlanMode>(*sim, "--mode", sim_options.mode, {{"full", PlanMode::kFull}, {"paper", PlanMode::kPaper}},
+                       "full: laser only, stops for people; paper: movers given, never stops");
+  sim->add_flag("--constant-speed", sim_options.constant_speed,
+                "One speed from start to goal, never stopping for a plan");
+  add_choice<std::string>(*sim, "--planner", sim_options.rival,
+                          {{"ours", ""}, {"none", "none"}, {"replan", "replan"}, {"dwa", "dwa"}, {"orca", "orca"}},
+                          "Who decides on motion: ours, or a planner of others to hold it against");
+  sim->add_option_function<std::string>(
+         "--comfort", [](const std::string& word) { sim_options.settings.push_back("robot.comfort=" + word); },
+         "How the ride is to feel, in place of the scenario's own")
+      ->check(CLI::IsMember(comfort_names()));
+  add_backend(*sim, sim_options.backend, sim_options.device);
+  sim->add_option("--out", sim_options.out, "Folder for what the run leaves")->capture_default_str();
+  add_parts(*sim, sim_options.parts);
+  sim->add_flag("--save-map", sim_options.save_map, "Save what the robot saw: map.yaml and map.pgm (map_server)");
+  sim->add_flag("--realtime", sim_options.realtime, "Hold simulated time to the wall clock");
+  sim->add_flag("--mcap", sim_options.mcap, "Leave run.mcap as well, as export would");
+  sim->add_flag("--json", sim_options.json, "Print the summary, in place of a line");
+  add_view(*sim, sim_options.view);
+  sim->add_flag("--until-arrived", sim_options.until_arrived, "End at the first arrival, watched or not");
+  sim->callback([&exit_code] { exit_code = run_sim(sim_options); });
 }
 
 }  // namespace jaywalk

@@ -1,10 +1,12 @@
 #pragma once
 // Metrics of a run: path, smoothness, loops, detours, and share granted to a person's stick.
+// Describes in words where a run waited or turned round, when, for how long and for which mover.
 #include <algorithm>
 #include <array>
 #include <cstdint>
 #include <deque>
 #include <limits>
+#include <string>
 #include <vector>
 
 #include "apps/report/distribution.h"
@@ -13,6 +15,7 @@
 #include "hal/types/time.h"
 
 namespace jaywalk {
+
 inline constexpr double kTurnStepM = 0.25;
 inline constexpr std::size_t kTurnBins = 18;
 inline constexpr double kTurnBinDeg = 10.0;
@@ -144,6 +147,29 @@ class GrantedShare {
   std::uint64_t ticks_ = 0;
   bool steered_ = false;
   Time last_ = kNever;
+};
+
+/// Moments of a run, each with the body that came nearest meanwhile.
+class Moments {
+ public:
+  /// The robot was there from then on for so long; `what` in words, or empty.
+  void add(double from_s, double for_s, Vec2 position_in_map, const std::string& what);
+  /// A body as it was tracked; times in any order.
+  void note(double t_s, unsigned id, Vec2 position_in_map, Vec2 velocity_in_map);
+  /// `title` and a line each, the longest of them; empty: there was none.
+  [[nodiscard]] std::string words(const std::string& title) const;
+  [[nodiscard]] bool any() const { return !moments_.empty(); }
+
+ private:
+  struct Moment {
+    double from_s, for_s;
+    Vec2 where;
+    std::string what;
+    double nearest_m;
+    unsigned id = 0;
+    double speed_mps = 0.0;
+  };
+  std::vector<Moment> moments_;
 };
 
 }  // namespace jaywalk

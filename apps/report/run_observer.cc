@@ -1,7 +1,6 @@
 #include "apps/report/run_observer.h"
 
 #include "apps/report/picture/picture.h"
-#include "apps/report/picture/run_svg.h"
 #include "hal/shown_text.h"
 
 namespace jaywalk {

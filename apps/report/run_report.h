@@ -1,18 +1,63 @@
 #pragma once
-// Gathers a run tick by tick and leaves its tables and figures behind.
+// Gathers a run tick by tick and leaves its tables and figures behind, in room that it holds on the disk.
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "apps/report/csv_file.h"
 #include "apps/report/distribution.h"
 #include "apps/report/drive_metrics.h"
 #include "apps/report/picture/scene.h"
-#include "apps/report/run_tables.h"
 #include "firmware/run_sample.h"
 
 namespace jaywalk {
+
+/// 64 KiB that a run holds in its folder until its end, so that a disk that other files have filled meanwhile still
+/// takes its summary.
+class DiskReserve {
+ public:
+  /// Throws StartupError where the disk has no room for it. A file system that cannot hold room is passed over.
+  explicit DiskReserve(const std::filesystem::path& folder);
+  ~DiskReserve() { release(); }
+  DiskReserve(const DiskReserve&) = delete;
+  DiskReserve& operator=(const DiskReserve&) = delete;
+
+  void release() noexcept;
+
+ private:
+  std::filesystem::path file_;
+};
+
+/// robot.csv, movers.csv and tracks.csv (columns: docs/reference/outputs.md), a tick at a time; on the disk within
+/// kLongestWait of the ticks' time. A table that the disk does not take ends with its last whole row; the others go on.
+class RunTables {
+ public:
+  static constexpr Duration kLongestWait = std::chrono::milliseconds(500);
+
+  /// Throws StartupError when `folder` cannot be written to.
+  explicit RunTables(const std::filesystem::path& folder);
+  void add(const RunSample& sample);
+  void close();
+  /// Goes on after `before`, which has the tracks of the last scan.
+  void follow(const RunTables& before) noexcept { scan_count_ = before.scan_count_; }
+  /// Of all three, with what is not on the disk yet.
+  [[nodiscard]] std::uintmax_t bytes() const noexcept { return robot_.bytes() + movers_.bytes() + tracks_.bytes(); }
+  [[nodiscard]] bool is_losing() const noexcept;
+  /// AppendFile's, of each table that the disk did not take whole.
+  [[nodiscard]] std::vector<std::string> complaints() const;
+
+ private:
+  void add_robot(const RunSample& sample);
+  void add_movers(const RunSample& sample);
+  void add_tracks(const RunSample& sample);
+
+  CsvFile robot_, movers_, tracks_;
+  Time written_at_ = kNever;
+  std::uint32_t scan_count_ = 0;
+};
+
 /// Works outside the tick: it allocates and writes. Its memory has bounds, however long the run. Not thread-safe.
 ///
 /// Lengths, turns and speeds are the world's where truth is given, else the controller's estimate

@@ -10,7 +10,6 @@
 
 #include "apps/report/csv_file.h"
 #include "apps/report/drive_metrics.h"
-#include "apps/report/moments.h"
 #include "firmware/recording/run_folders.h"
 #include "firmware/safety/reasons.h"
 #include "hal/shown_text.h"

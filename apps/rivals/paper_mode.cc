@@ -1,8 +1,14 @@
 #include "apps/rivals/paper_mode.h"
 
+#include <cmath>
+#include <string>
 #include <utility>
 
 #include "apps/rivals/baseline.h"
+#include "hal/maps/occupancy.h"
+#include "hal/sim/walls.h"
+#include "hal/text_file.h"
+#include "hal/types/errors.h"
 
 #ifndef JAYWALK_HAS_CUDA
 #define JAYWALK_HAS_CUDA 0
@@ -57,6 +63,61 @@ std::unique_ptr<paper::MapField> make_map_field(const paper::CellMap& map, Backe
   if (auto solver = paper::make_cuda_map_field(map, device, why_not)) return solver;
   if (backend == Backend::kCuda) refuse_cuda(why_not);
   return paper::make_cpu_map_field(map);
+}
+
+namespace {
+
+constexpr double kDefaultCell_m = 0.1;
+
+void check_size(const std::string& file, double width, double height) {
+  const double most = paper::kMostMapCells;
+  if (width <= most && height <= most) return;
+  throw StartupError(file + ": more than 2048 cells a side", "choose larger cells: --resolution");
+}
+
+MapCells cells_of(sim::Raster raster) {
+  return {{raster.width, raster.height, std::move(raster.solid)}, raster.map_from_raster, raster.cell_m};
+}
+
+/// Lines and discs as cells: those whose middle is within half a cell. A line leaves no gap that way which a step to a
+/// cell's side could pass.
+MapCells drawn_cells(const std::filesystem::path& file, sim::WallMap map, double cell_m) {
+  const sim::Walls walls(std::move(map));
+  const sim::Box box = walls.bounds();
+  const double width = std::floor((box.high.x - box.low.x) / cell_m) + 2.0;
+  const double height = std::floor((box.high.y - box.low.y) / cell_m) + 2.0;
+  check_size(file.string(), width, height);
+  MapCells drawn{{static_cast<std::int32_t>(width), static_cast<std::int32_t>(height), {}},
+                 {box.low.x - cell_m / 2.0, box.low.y - cell_m / 2.0, 0.0},
+                 cell_m};
+  for (std::int32_t j = 0; j < drawn.cells.height; ++j) {
+    for (std::int32_t i = 0; i < drawn.cells.width; ++i) {
+      const Vec2 middle{box.low.x + i * cell_m, box.low.y + j * cell_m};
+      drawn.cells.wall.push_back(walls.distance(middle, cell_m) <= cell_m / 2.0 ? 1 : 0);
+    }
+  }
+  return drawn;
+}
+
+}  // namespace
+
+MapCells load_map_cells(const std::filesystem::path& file, std::optional<double> cell_m) {
+  const std::string name = file.string(), ending = file.extension().string();
+  if (cell_m && !(*cell_m >= 0.001 && *cell_m <= 10.0))
+    throw StartupError("--resolution: outside 0.001 to 10 m", "give metres a cell");
+  require_readable(file, name + ": ", "give a map's path");
+  if (ending == ".yaml" || ending == ".yml") {
+    if (cell_m) throw StartupError(name + ": says its resolution itself", "leave --resolution out");
+    return cells_of(sim::load_raster_map(file, paper::kMostMapCells).raster);
+  }
+  if (ending == ".png" || ending == ".pgm") {
+    if (!cell_m) throw StartupError(name + ": a picture has no scale", "give --resolution, metres a pixel");
+    return cells_of(sim::read_raster(file, {}, *cell_m, paper::kMostMapCells));
+  }
+  if (ending == ".map") return drawn_cells(file, sim::load_aria_map(file), cell_m.value_or(kDefaultCell_m));
+  if (ending == ".txt") return drawn_cells(file, sim::load_cylinder_map(file), cell_m.value_or(kDefaultCell_m));
+  throw StartupError(name + ": not a kind of map",
+                     "give .yaml (map_server), .map (ARIA), .txt (cylinders), .png, .pgm");
 }
 
 }  // namespace jaywalk

@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdio>
 
-#include "firmware/robot/robot_file_keys.h"
+#include "firmware/robot/robot_file.h"
 
 namespace jaywalk {
 namespace {

@@ -8,7 +8,7 @@
 #include <istream>
 #include <ostream>
 
-#include "firmware/robot/robot_file_keys.h"
+#include "firmware/robot/robot_file.h"
 #include "hal/shown_text.h"
 #include "hal/types/errors.h"
 

@@ -1,7 +1,6 @@
 #include "apps/view/run_view.h"
 
 #include <boost/asio/post.hpp>
-#include <thread>
 
 #include "firmware/robot/control_socket.h"
 #include "hal/types/errors.h"
@@ -80,13 +79,13 @@ void RunView::stop(const view::Reply& reply) {
 void RunView::go(const std::string& line, const view::Reply& reply) {
   if (goals_waiting_ >= kMostWaiting) return reply("refused: too many goals at once\n");
   ++goals_waiting_;
-  boost::asio::post(goals_, [this, line, reply, stops = stops_asked_.load()] {
-    while (static_cast<int>(stops_done_ - stops) < 0) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  const auto say = [this, line, reply, stops = stops_asked_.load()] {
     const bool goes = stops == stops_asked_;
     reply(goes ? said_to(line) : "taken back by a stop\n");
     if (goes && stops != stops_asked_) static_cast<void>(said_to(kStop));
     --goals_waiting_;
-  });
+  };
+  boost::asio::post(stops_, [this, say] { boost::asio::post(goals_, say); });
 }
 
 }  // namespace jaywalk

@@ -7,7 +7,7 @@
 #include "apps/report/run_observer.h"
 #include "apps/view/live_view.h"
 #include "apps/view/secret.h"
-#include "apps/view/view_snapshot.h"
+#include "apps/view/view_scene.h"
 
 namespace jaywalk {
 /// The live page of a run on a robot: 25 ticks a second through a ring, goals, stops and resets through the run's
@@ -42,8 +42,9 @@ class RunView final : public RunObserver {
   view::ViewSnapshot last_;  ///< shown
   view::PlannerTap planner_tap_;
   std::atomic<unsigned> stops_asked_{0}, stops_done_{0}, goals_waiting_{0};
-  boost::asio::thread_pool stops_{1},
-      goals_{1};  ///< the socket may take seconds to answer; outlive the server, which calls
+  // The socket may take seconds to answer. They outlive the server, which calls; the goals outlive the stops, which
+  // pass them on.
+  boost::asio::thread_pool goals_{1}, stops_{1};
   LiveView live_;
   view::AddressFile address_file_;
 };

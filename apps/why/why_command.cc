@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/jaywalk/commands.h"
 #include "apps/jaywalk/progress.h"
 #include "apps/report/picture/picture.h"
 #include "apps/report/picture/scene.h"
@@ -13,6 +14,14 @@
 
 namespace jaywalk {
 namespace {
+
+struct WhyOptions {
+  std::filesystem::path run;  ///< a run's folder, or a recording.jwr
+  double at_s = 0.0;
+  std::filesystem::path out = "out/why";
+};
+
+WhyOptions why_options;
 
 constexpr double kShown_m = 8.0;  // to each side of the robot
 
@@ -120,8 +129,6 @@ std::optional<std::filesystem::path> save(const PictureScene& scene, const std::
   return folder / "why.png";
 }
 
-}  // namespace
-
 int run_why(const WhyOptions& options) {
   RecordedRun recorded(options.run);
   RelivedRun run(recorded);
@@ -134,6 +141,16 @@ int run_why(const WhyOptions& options) {
   std::fputs(run.remarks().c_str(), stderr);
   if (drawn) std::printf("See %s\n", drawn->c_str());
   return 0;
+}
+
+}  // namespace
+
+void add_why(CLI::App& app, int& exit_code) {
+  CLI::App* why = app.add_subcommand("why", "One moment of a recording: what it saw, wanted, was permitted, and why");
+  why->add_option("run", why_options.run, "A run's folder, or its recording.jwr")->required();
+  why->add_option("t_s", why_options.at_s, "When, in seconds of the recording's clock")->required();
+  why->add_option("--out", why_options.out, "Folder for why.png")->capture_default_str();
+  why->callback([&exit_code] { exit_code = run_why(why_options); });
 }
 
 }  // namespace jaywalk

@@ -10,7 +10,7 @@
 
 #include "apps/formats/logs/line_file.h"
 #include "apps/formats/logs/log_replay.h"
-#include "apps/report/run_tables.h"
+#include "apps/report/run_report.h"
 #include "bench/command_line.h"
 #include "bench/tracking/run_folder.h"
 #include "firmware/estimator.h"

@@ -7,9 +7,9 @@
 
 #include "apps/report/distribution.h"
 #include "bench/command_line.h"
-#include "firmware/robot/planner_thread.h"
+#include "firmware/backends.h"
 #include "hal/types/errors.h"
-#include "hil/far_end/in_process_robot.h"
+#include "hil/far_end/simulated_robot.h"
 
 namespace jaywalk::bench {
 namespace {

@@ -1,8 +1,136 @@
 #include "drivers/canopen/cia402.h"
 
+#include <algorithm>
+
 #include "drivers/canopen/drive_proof.h"
+#include "drivers/wire/byte_reader.h"
 
 namespace jaywalk::canopen {
+namespace {
+
+constexpr std::uint32_t kNmtId = 0x000, kSyncId = 0x080, kEmergencyBase = 0x080, kHeartbeatBase = 0x700;
+
+/// The node of a frame whose identifier is `base` + node; 0 where it is none of them.
+std::uint8_t node_of(const CanFrame& frame, std::uint32_t base) noexcept {
+  if (frame.extended || frame.remote || frame.id <= base || frame.id > base + 127) return 0;
+  return static_cast<std::uint8_t>(frame.id - base);
+}
+
+}  // namespace
+
+std::size_t length_of(const PdoMapping& mapping) noexcept {
+  std::size_t length = 0;
+  for (const MappedObject& object : mapping) length += object.bytes;
+  return length;
+}
+
+std::optional<CanFrame> pack(const PdoMapping& mapping, std::uint32_t id,
+                             std::span<const std::uint32_t> values) noexcept {
+  if (values.size() != mapping.size() || length_of(mapping) > 8) return std::nullopt;
+  CanFrame frame;
+  frame.id = id;
+  for (std::size_t i = 0; i < mapping.size(); ++i)
+    for (std::uint8_t byte = 0; byte < mapping[i].bytes && byte < 4; ++byte)
+      frame.bytes[frame.size++] = static_cast<std::uint8_t>(values[i] >> (8U * byte));
+  return frame;
+}
+
+std::optional<FixedVector<std::uint32_t, 8>> unpack(const PdoMapping& mapping, const CanFrame& frame) noexcept {
+  if (frame.remote || frame.size > 8 || length_of(mapping) > frame.size) return std::nullopt;
+  FixedVector<std::uint32_t, 8> values;
+  std::size_t at = 0;
+  for (const MappedObject& object : mapping) {
+    std::uint32_t value = 0;
+    for (std::uint8_t byte = 0; byte < object.bytes && byte < 4; ++byte)
+      value |= static_cast<std::uint32_t>(frame.bytes[at++]) << (8U * byte);
+    if (!values.push_back(value)) return std::nullopt;
+  }
+  return values;
+}
+
+// CiA 301: a PDO must be off (bit 31 of its COB-ID) and its mapping empty while it is mapped.
+bool append_setup(const PdoSetup& setup, ObjectWrites& writes) noexcept {
+  constexpr std::uint32_t kOff = 0x80000000;
+  bool fits = writes.push_back({{setup.communication_index, 1}, setup.id | kOff, 4});
+  fits = fits && writes.push_back({{setup.mapping_index, 0}, 0, 1});
+  std::uint8_t entry = 0;
+  for (const MappedObject& object : setup.mapping)
+    fits = fits && writes.push_back({{setup.mapping_index, ++entry}, object.mapping_word(), 4});
+  fits = fits && writes.push_back({{setup.mapping_index, 0}, entry, 1});
+  fits = fits && writes.push_back({{setup.communication_index, 2}, setup.transmission_type, 1});
+  return fits && writes.push_back({{setup.communication_index, 1}, setup.id, 4});
+}
+
+CanFrame nmt_frame(NmtCommand command, std::uint8_t node) noexcept {
+  CanFrame frame;
+  frame.id = kNmtId;
+  frame.size = 2;
+  frame.bytes = {static_cast<std::uint8_t>(command), node};
+  return frame;
+}
+
+CanFrame sync_frame() noexcept {
+  CanFrame frame;
+  frame.id = kSyncId;
+  return frame;
+}
+
+CanFrame heartbeat_frame(std::uint8_t node, NmtState state) noexcept {
+  CanFrame frame;
+  frame.id = kHeartbeatBase + node;
+  frame.size = 1;
+  frame.bytes = {static_cast<std::uint8_t>(state)};
+  return frame;
+}
+
+std::optional<Heartbeat> decode_heartbeat(const CanFrame& frame) noexcept {
+  const std::uint8_t node = node_of(frame, kHeartbeatBase);
+  if (node == 0 || frame.size == 0) return std::nullopt;
+  const auto state = static_cast<NmtState>(frame.bytes[0]);
+  switch (state) {
+    case NmtState::kBootUp:
+    case NmtState::kStopped:
+    case NmtState::kOperational:
+    case NmtState::kPreOperational: return Heartbeat{node, state};
+  }
+  return std::nullopt;
+}
+
+CanFrame emergency_frame(const Emergency& emergency) noexcept {
+  CanFrame frame;
+  frame.id = kEmergencyBase + emergency.node;
+  frame.size = 8;
+  wire::put_little_endian(emergency.error_code, frame.bytes);
+  frame.bytes[2] = emergency.error_register;
+  std::copy(emergency.maker_bytes.begin(), emergency.maker_bytes.end(), frame.bytes.begin() + 3);
+  return frame;
+}
+
+std::optional<Emergency> decode_emergency(const CanFrame& frame) noexcept {
+  const std::uint8_t node = node_of(frame, kEmergencyBase);
+  if (node == 0 || frame.size != 8) return std::nullopt;
+  Emergency emergency{node, wire::little_endian<std::uint16_t>(frame.payload()), frame.bytes[2], {}};
+  std::copy(frame.bytes.begin() + 3, frame.bytes.end(), emergency.maker_bytes.begin());
+  return emergency;
+}
+
+std::string_view emergency_class(std::uint16_t error_code) noexcept {
+  switch (error_code >> 12U) {
+    case 0x0: return "no error";
+    case 0x1: return "generic";
+    case 0x2: return "current";
+    case 0x3: return "voltage";
+    case 0x4: return "temperature";
+    case 0x5: return "device hardware";
+    case 0x6: return "device software";
+    case 0x7: return "additional modules";
+    case 0x8: return "monitoring";
+    case 0x9: return "external";
+    case 0xF: return "device specific";
+    default: return "reserved";
+  }
+}
+
 namespace {
 
 constexpr std::uint16_t kDisableVoltage = 0x0000, kQuickStop = 0x0002, kShutdown = 0x0006, kSwitchOn = 0x0007,
@@ -64,17 +192,14 @@ std::uint16_t controlword_towards(DriveGoal goal, DriveState state, bool reset_f
   return kDisableVoltage;
 }
 
-QuickStopper::QuickStopper(CanBus& bus, std::array<std::uint8_t, 2> nodes) noexcept
-    : bus_(bus), nodes_(nodes), mappings_{command_pdo(nodes[0]).mapping, command_pdo(nodes[1]).mapping} {}
-
-// Whether a frame is taken changes nothing: there is no third way, and it is said again as long as it has to be.
-void QuickStopper::brake() noexcept {
-  const std::uint16_t stop = controlword_towards(DriveGoal::kQuickStop, DriveState::kOperationEnabled, false);
-  for (std::size_t k = 0; k < nodes_.size(); ++k) {
-    const std::array<std::uint32_t, 2> values{stop, 0};
-    if (const auto frame = pack(mappings_[k], 0x200U + nodes_[k], values)) static_cast<void>(bus_.send(*frame));
-  }
-  static_cast<void>(bus_.send(sync_frame()));
+std::vector<CanFrame> quick_stop_frames(const std::array<std::uint8_t, 2>& nodes) {
+  const std::array<std::uint32_t, 2> stop{
+      controlword_towards(DriveGoal::kQuickStop, DriveState::kOperationEnabled, false), 0};
+  std::vector<CanFrame> frames;
+  for (const std::uint8_t node : nodes)
+    frames.push_back(pack(command_pdo(node).mapping, 0x200U + node, stop).value_or(CanFrame{}));
+  frames.push_back(sync_frame());
+  return frames;
 }
 
 }  // namespace jaywalk::canopen

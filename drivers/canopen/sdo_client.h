@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "drivers/can/can_bus.h"
-#include "drivers/canopen/pdo.h"
+#include "drivers/canopen/cia402.h"
 #include "drivers/wire/byte_reader.h"
 
 namespace jaywalk::canopen {

@@ -6,9 +6,9 @@
 #include "drivers/laser/ldrobot.h"
 #include "drivers/laser/lms200.h"
 #include "drivers/laser/rplidar.h"
-#include "drivers/laser/scip_protocol.h"
+#include "drivers/laser/scip.h"
 #include "drivers/laser/sick.h"
-#include "drivers/ros/ros_scan.h"
+#include "drivers/ros/ros_base.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk {

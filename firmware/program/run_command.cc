@@ -6,13 +6,13 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "drivers/can/can_interface.h"
+#include "drivers/can/socketcan.h"
 #include "drivers/wired_drive.h"
+#include "firmware/backends.h"
 #include "firmware/recording/map_files.h"
 #include "firmware/robot/commissioned.h"
 #include "firmware/robot/control_socket.h"
-#include "firmware/robot/operator_controls.h"
-#include "firmware/robot/planner_thread.h"
+#include "firmware/robot/operator_desk.h"
 #include "firmware/robot/preflight.h"
 #include "firmware/robot/realtime.h"
 #include "firmware/robot/robot_devices.h"

@@ -89,14 +89,10 @@ std::filesystem::path commissioned_path(const std::filesystem::path& robot) {
 
 std::string wiring_digest(const RobotFile& file) {
   const RobotModel& model = file.setup.model;
-  const auto axes = axes_of(file.drive);
-  std::vector<double> facts{static_cast<double>(file.drive.kind),
-                            axes[0],
-                            axes[1],
-                            axes[2],
-                            axes[3],
-                            model.drive.wheel_radius_m,
-                            model.drive.track_width_m};
+  std::vector<double> facts{static_cast<double>(file.drive.kind)};
+  for (const CanAxis& axis : file.drive.axes())
+    facts.insert(facts.end(), {static_cast<double>(axis.node), axis.per_rad});
+  facts.insert(facts.end(), {model.drive.wheel_radius_m, model.drive.track_width_m});
   for (std::size_t k = 0; k < file.lasers().size(); ++k) {
     const LaserModel& laser = model.lasers()[k];
     const Pose2& mount = laser.robot_from_laser;

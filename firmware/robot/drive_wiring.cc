@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "firmware/robot/robot_file_keys.h"
+#include "firmware/robot/robot_file.h"
 
 namespace jaywalk {
 namespace {
@@ -90,8 +90,7 @@ canopen::DriveBaseSetup read_cia402(TomlTable& table, const RobotModel& model, D
   const auto nodes = read_nodes(table);
   require_distinct(table,
                    {{"left_node", nodes[0]}, {"right_node", nodes[1]}, {"controller_node", settings.controller_node}});
-  const auto heartbeat = std::chrono::milliseconds(settings.heartbeat_ms);
-  base.axes = {canopen::AxisSetup{nodes[0], scales[0], heartbeat}, canopen::AxisSetup{nodes[1], scales[1], heartbeat}};
+  base.axes = {CanAxis{nodes[0], scales[0]}, CanAxis{nodes[1], scales[1]}};
   settings.acceleration = settings.deceleration = settings.quick_stop =
       ramp(kRampOverBrake * model.limits.brake_mps2, model.drive, std::fabs(scales[0]));
   return base;
@@ -185,23 +184,15 @@ std::string name_of(const ByteWiring& wiring) {
   return wiring.host.empty() ? wiring.device : wiring.host + ":" + std::to_string(wiring.port);
 }
 
-std::array<double, 4> axes_of(const DriveWiring& drive) {
-  const auto& odrive = drive.odrive.axes;
-  const auto& vesc = drive.vesc.axes;
-  const auto& cia402 = drive.cia402.axes;
-  switch (drive.kind) {
-    case DriveKind::kOdrive:
-      return {static_cast<double>(odrive[0].node), odrive[0].turns_per_rad, static_cast<double>(odrive[1].node),
-              odrive[1].turns_per_rad};
-    case DriveKind::kVesc:
-      return {static_cast<double>(vesc[0].controller), vesc[0].electrical_turns_per_rad,
-              static_cast<double>(vesc[1].controller), vesc[1].electrical_turns_per_rad};
-    case DriveKind::kDds: return {0.0, 1.0, 0.0, 1.0};  // it has no axes
-    case DriveKind::kPioneer: return {0.0, drive.arcos.mm_per_rad[0], 0.0, drive.arcos.mm_per_rad[1]};
-    case DriveKind::kCia402: break;
+std::array<CanAxis, 2> DriveWiring::axes() const noexcept {
+  switch (kind) {
+    case DriveKind::kCia402: return cia402.axes;
+    case DriveKind::kOdrive: return odrive.axes;
+    case DriveKind::kVesc: return vesc.axes;
+    case DriveKind::kDds: break;
+    case DriveKind::kPioneer: return {CanAxis{0, arcos.mm_per_rad[0]}, CanAxis{0, arcos.mm_per_rad[1]}};
   }
-  return {static_cast<double>(cia402[0].node), cia402[0].counts_per_rad, static_cast<double>(cia402[1].node),
-          cia402[1].counts_per_rad};
+  return {CanAxis{0, 1.0}, CanAxis{0, 1.0}};
 }
 
 DriveWiring read_drive(TomlTable table, RobotModel& model, Duration tick) {

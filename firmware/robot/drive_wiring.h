@@ -6,8 +6,8 @@
 
 #include "drivers/arcos/arcos_base.h"
 #include "drivers/canopen/drive_base.h"
-#include "drivers/motor/odrive_base.h"
-#include "drivers/motor/vesc_base.h"
+#include "drivers/motor/odrive.h"
+#include "drivers/motor/vesc.h"
 #include "drivers/ros/ros_base.h"
 #include "hal/toml_file.h"
 #include "hal/types/robot_model.h"
@@ -47,10 +47,9 @@ struct DriveWiring {
   arcos::BaseSetup arcos;
 
   [[nodiscard]] bool is_on_can() const noexcept { return kind != DriveKind::kDds && kind != DriveKind::kPioneer; }
+  /// Left, right; without numbers where the base has none, and of scale 1 where it has no wheels of its own.
+  [[nodiscard]] std::array<CanAxis, 2> axes() const noexcept;
 };
-
-/// Left node and scale, right node and scale, as the file has them: counts or turns a radian, negative where reversed.
-[[nodiscard]] std::array<double, 4> axes_of(const DriveWiring& drive);
 
 /// Reads the table to its end; a track width of its own goes into the model. Throws StartupError "FILE:LINE: cause;
 /// remedy" for anything wrong or unknown. `tick`: the loop's period, two of which every drive's timeout outlasts, or

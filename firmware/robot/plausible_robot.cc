@@ -75,8 +75,8 @@ void check_wheels(const Check& check, const RobotFile& robot, const DriveModel& 
 
 /// Counts or turns of the faster scaled wheel's drive a radian.
 double per_rad(const DriveWiring& drive) {
-  const auto axes = axes_of(drive);
-  return std::max(std::fabs(axes[1]), std::fabs(axes[3]));
+  const auto axes = drive.axes();
+  return std::max(std::fabs(axes[0].per_rad), std::fabs(axes[1].per_rad));
 }
 
 void check_gear(const Check& check, const RobotFile& robot, const DriveModel& nominal) {

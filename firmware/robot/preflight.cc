@@ -10,11 +10,11 @@
 #include <fstream>
 #include <thread>
 
-#include "drivers/can/can_interface.h"
+#include "drivers/can/socketcan.h"
 #include "drivers/panel/joystick.h"
 #include "firmware/backends.h"
 #include "firmware/robot/control_socket.h"
-#include "firmware/robot/operator_controls.h"
+#include "firmware/robot/operator_desk.h"
 #include "firmware/robot/robot_devices.h"
 #include "firmware/safety/blind_gaps.h"
 #include "firmware/safety/stop_zone.h"

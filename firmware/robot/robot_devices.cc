@@ -14,15 +14,15 @@ namespace {
 constexpr const char* kStartNodes = "start the robot's ROS 2 nodes, and jaywalk_dds with this file and their domain";
 
 std::unique_ptr<EmergencyBrake> make_brake(const DriveWiring& wiring, CanBus& bus) {
-  const auto& odrives = wiring.odrive.axes;
-  const auto& vescs = wiring.vesc.axes;
-  const auto& axes = wiring.cia402.axes;
   if (wiring.kind == DriveKind::kPioneer) return std::make_unique<arcos::Stopper>(bus);
-  if (wiring.kind == DriveKind::kOdrive)
-    return std::make_unique<odrive::Stopper>(bus, std::array{odrives[0].node, odrives[1].node});
-  if (wiring.kind == DriveKind::kVesc)
-    return std::make_unique<vesc::Stopper>(bus, std::array{vescs[0].controller, vescs[1].controller});
-  return std::make_unique<canopen::QuickStopper>(bus, std::array{axes[0].node, axes[1].node});
+  const std::array nodes{wiring.axes()[0].node, wiring.axes()[1].node};
+  std::vector<CanFrame> frames;
+  if (wiring.kind == DriveKind::kCia402) frames = canopen::quick_stop_frames(nodes);
+  for (const std::uint8_t node : nodes) {
+    if (wiring.kind == DriveKind::kOdrive) frames.push_back(odrive::set_velocity(node, 0.0F));
+    if (wiring.kind == DriveKind::kVesc) frames.push_back(vesc::set_erpm(node, 0));
+  }
+  return std::make_unique<FrameBrake>(bus, frames);
 }
 
 std::unique_ptr<ros::RosBus> make_ros_bus(const ros::BaseSetup& base, Clock& clock) {
@@ -79,7 +79,7 @@ std::vector<CanFilter> filters_for(const DriveWiring& wiring) {
   const auto masters =
       canopen::masters_identifiers(wiring.cia402.settings.controller_node, {axes[0].node, axes[1].node});
   for (const std::uint32_t id : masters) filters.push_back({.id = id, .mask = kMaxStandardId, .extended = false});
-  for (const canopen::AxisSetup& axis : axes)
+  for (const CanAxis& axis : axes)
     for (const std::uint32_t base : {0x080U, 0x180U, 0x280U, 0x580U, 0x700U})
       filters.push_back({.id = base + axis.node, .mask = kMaxStandardId, .extended = false});
   return filters;

@@ -13,7 +13,6 @@
 #include "drivers/laser/scanner_connection.h"
 #include "drivers/wired_drive.h"
 #include "firmware/loop_runner.h"
-#include "firmware/robot/operator_controls.h"
 #include "firmware/robot/operator_desk.h"
 #include "firmware/robot/realtime.h"
 #include "firmware/robot/service_manager.h"

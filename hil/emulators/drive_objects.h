@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "drivers/can/can_bus.h"
-#include "drivers/canopen/pdo.h"
+#include "drivers/canopen/cia402.h"
 #include "hal/types/fixed_vector.h"
 
 namespace jaywalk::emulators {

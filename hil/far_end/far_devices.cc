@@ -7,11 +7,9 @@
 #include "hal/types/errors.h"
 #include "hil/emulators/arcos_board.h"
 #include "hil/emulators/cia402_node.h"
-#include "hil/emulators/odrive_node.h"
-#include "hil/emulators/scip_server.h"
+#include "hil/emulators/motor_node.h"
+#include "hil/emulators/network_scanners.h"
 #include "hil/emulators/serial_scanners.h"
-#include "hil/emulators/sick_server.h"
-#include "hil/emulators/vesc_node.h"
 
 namespace jaywalk::rig {
 namespace {
@@ -141,22 +139,12 @@ std::array<std::unique_ptr<WheelDrive>, 2> make_wheel_drives(const DriveWiring& 
 }
 
 std::unique_ptr<WheelDrive> make_wheel_drive(const DriveWiring& wiring, std::size_t side, CanBus& bus) {
-  const auto& odrive = wiring.odrive.axes[side];
-  const auto& vesc = wiring.vesc.axes[side];
-  const auto& cia402 = wiring.cia402.axes[side];
-  switch (wiring.kind) {
-    case DriveKind::kOdrive: {
-      auto drive = std::make_unique<NodeDrive<emulators::OdriveNode>>(bus, odrive.node, odrive.turns_per_rad);
-      drive->node().set_watchdog(std::max<Duration>(kOdriveWatchdog, wiring.odrive.watchdog_least + kOdriveHeartbeat));
-      return drive;
-    }
-    case DriveKind::kVesc:
-      return std::make_unique<NodeDrive<VescNode>>(bus, vesc.controller, vesc.electrical_turns_per_rad);
-    case DriveKind::kDds:
-    case DriveKind::kPioneer:
-    case DriveKind::kCia402: break;
-  }
-  return std::make_unique<NodeDrive<Cia402Node>>(bus, cia402.node, cia402.counts_per_rad);
+  const auto [node, per_rad] = wiring.axes()[side];
+  if (wiring.kind == DriveKind::kVesc) return std::make_unique<NodeDrive<VescNode>>(bus, node, per_rad);
+  if (wiring.kind != DriveKind::kOdrive) return std::make_unique<NodeDrive<Cia402Node>>(bus, node, per_rad);
+  auto drive = std::make_unique<NodeDrive<OdriveNode>>(bus, node, per_rad);
+  drive->node().set_watchdog(std::max<Duration>(kOdriveWatchdog, wiring.odrive.watchdog_least + kOdriveHeartbeat));
+  return drive;
 }
 
 std::unique_ptr<ByteServer> make_far_wire(const ByteWiring& wiring) {

@@ -1,13 +1,24 @@
 #pragma once
+// Both ends of the wires in one process: for measuring and for tests that move time on by hand.
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <deque>
+#include <filesystem>
+#include <functional>
 #include <memory>
 #include <span>
+#include <string>
+#include <utility>
 #include <vector>
 
+#include "drivers/can/in_process_bus.h"
+#include "firmware/robot/operator_desk.h"
+#include "firmware/robot/realtime.h"
 #include "firmware/robot/robot_file.h"
+#include "firmware/robot/robot_loop.h"
 #include "hal/sim/world.h"
+#include "hil/emulators/byte_server.h"
 #include "hil/far_end/far_devices.h"
 
 namespace jaywalk::rig {
@@ -83,6 +94,126 @@ class SimulatedRobot {
   Time deceived_ = kNever;
   WheelState shown_;             ///< as the encoders show it
   std::deque<WheelState> read_;  ///< of the last half second, and the newest
+};
+
+/// A place on a bus, and when a frame left it last.
+class WatchedBus final : public CanBus {
+ public:
+  /// Both outlive it.
+  WatchedBus(CanBus& bus, Clock& clock) noexcept : bus_(bus), clock_(clock) {}
+
+  [[nodiscard]] SendResult send(const CanFrame& frame) noexcept override {
+    const SendResult result = bus_.send(frame);
+    sent_ = clock_.now();
+    return result;
+  }
+  [[nodiscard]] bool receive(ReceivedFrame& received) noexcept override { return bus_.receive(received); }
+  [[nodiscard]] CanHealth health() const noexcept override { return bus_.health(); }
+  [[nodiscard]] Time sent() const noexcept { return sent_; }
+
+ private:
+  CanBus& bus_;
+  Clock& clock_;
+  Time sent_ = kNever;
+};
+
+/// The controller of a ROBOT.toml with the simulated robot at the far end of an in-process bus and of a real scanner's
+/// wire. `step_far_end` is for the clock: whatever waits, waits by it, and the far end lives meanwhile.
+class InProcessRobot {
+ public:
+  struct Run {
+    std::filesystem::path out;                  ///< the folder for the run's files
+    LoopRunner::MakePlanner make_planner = {};  ///< LoopRunner's
+    TickObserver* observer = nullptr;           ///< gets every tick; outlives the robot. Null: nothing observes the run
+    bool real_line = false;                     ///< of a Pioneer: a pseudo terminal or TCP port, not the in-process bus
+  };
+
+  /// `clock` outlives it. A scanner on a network is found at any free port of this machine. Throws StartupError.
+  InProcessRobot(RobotFile file, const sim::Scenario& scenario, std::uint64_t seed, Clock& clock, const Run& run);
+
+  /// Moves the far end on to now; notes when the first scanner's newest message was complete.
+  void step_far_end();
+
+  [[nodiscard]] SimulatedRobot& far_end() noexcept { return far_end_; }
+  [[nodiscard]] ScannerConnection& laser() noexcept { return *lasers_.front(); }
+  [[nodiscard]] std::span<const std::unique_ptr<ScannerConnection>> lasers() const noexcept { return lasers_; }
+  [[nodiscard]] WiredDrive& drive() noexcept { return *drive_; }
+  [[nodiscard]] OperatorDesk& desk() noexcept { return controls_.desk(); }
+  [[nodiscard]] LoopRunner& runner() noexcept { return runner_; }
+  [[nodiscard]] RobotLoop& loop() noexcept { return loop_; }
+  [[nodiscard]] const WatchedBus& bus() const noexcept { return bus_; }
+  /// Port 0 is the controller's, 1 and 2 are the drives' (left, right); the others are free.
+  [[nodiscard]] InProcessBus& wires() noexcept { return wires_; }
+  /// The device's end of a Pioneer's real line; null: none.
+  [[nodiscard]] emulators::ServedBytes* far_line() noexcept { return far_line_.get(); }
+  /// When the last byte of the scanner's message left, by message, from the first.
+  [[nodiscard]] const std::vector<Time>& messages() const noexcept { return messages_; }
+
+ private:
+  class NoBrake final : public EmergencyBrake {
+   public:
+    void brake() noexcept override {}
+  };
+
+  InProcessRobot(RobotFile file, const sim::Scenario& scenario, std::uint64_t seed, Clock& clock, const Run& run,
+                 FarWires wires);
+  [[nodiscard]] SimulatedRobot::Buses places() noexcept;
+  [[nodiscard]] Hal hal();
+
+  TickObserver nobody_;
+  TickObserver& observer_;
+  Clock& clock_;
+  RobotFile file_;
+  InProcessBus wires_;
+  std::unique_ptr<emulators::ServedBytes> far_line_;  ///< null: none
+  std::unique_ptr<CanBus> line_;                      ///< its other end
+  WatchedBus bus_;
+  SimulatedRobot far_end_;
+  std::vector<std::unique_ptr<ScannerConnection>> lasers_;
+  std::unique_ptr<WiredDrive> drive_;
+  OperatorControls controls_;
+  LoopRunner runner_;
+  NoBrake no_brake_;
+  StallGuard guard_;  ///< not started: time may stand still here
+  RobotLoop loop_;
+  std::vector<Time> messages_;
+};
+
+// Clocks by which the wires' far end lives while the controller sleeps, in the thread that sleeps.
+
+/// How long the far end stands still at most.
+inline constexpr Duration kLivingStep = std::chrono::milliseconds(1);
+
+/// Time that a test moves on by hand. Thread: one.
+class HandLivingClock final : public Clock {
+ public:
+  [[nodiscard]] Time now() noexcept override { return now_; }
+  void sleep_until(Time wake) noexcept override {
+    while (now_ < wake) {
+      now_ += kLivingStep;
+      if (live) live();
+    }
+  }
+  std::function<void()> live;
+
+ private:
+  Time now_{};
+};
+
+/// Real time; any thread asks for it, one sleeps by it.
+class RealLivingClock final : public Clock {
+ public:
+  [[nodiscard]] Time now() noexcept override { return steady_.now(); }
+  void sleep_until(Time wake) noexcept override {
+    do {
+      if (live) live();
+      steady_.sleep_until(std::min(wake, now() + kLivingStep));
+    } while (now() < wake);
+  }
+  std::function<void()> live;
+
+ private:
+  SteadyClock steady_;
 };
 
 }  // namespace jaywalk::rig

@@ -7,8 +7,8 @@
 #include <cstdio>
 #include <thread>
 
+#include "apps/campaign/campaign.h"
 #include "apps/campaign/campaign_folder.h"
-#include "apps/campaign/run_pool.h"
 #include "tests/campaign/made_campaigns.h"
 #include "tests/support/catch.h"
 

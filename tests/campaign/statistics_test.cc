@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "apps/campaign/plan_text.h"
+#include "apps/campaign/campaign_folder.h"
 #include "tests/support/catch.h"
 
 using namespace jaywalk::campaign;

@@ -1,7 +1,6 @@
 #include <vector>
 
 #include "drivers/canopen/cia402.h"
-#include "drivers/canopen/pdo.h"
 #include "tests/drivers/frames.h"
 #include "tests/drivers/random_bytes.h"
 #include "tests/support/catch.h"

@@ -8,12 +8,11 @@
 
 #include "drivers/arcos/arcos_base.h"
 #include "drivers/can/in_process_bus.h"
-#include "drivers/motor/odrive_base.h"
-#include "drivers/motor/vesc_base.h"
+#include "drivers/motor/odrive.h"
+#include "drivers/motor/vesc.h"
 #include "hal/types/errors.h"
 #include "hil/emulators/arcos_board.h"
-#include "hil/emulators/odrive_node.h"
-#include "hil/emulators/vesc_node.h"
+#include "hil/emulators/motor_node.h"
 #include "tests/drivers/drive_plant.h"
 #include "tests/drivers/frames.h"
 #include "tests/drivers/watched_port.h"
@@ -134,7 +133,7 @@ struct Odrive {
   static constexpr double kPerRad = 2.0;  ///< turns
   static Setup setup() {
     Setup setup;
-    setup.axes = {odrive::AxisSetup{3, kPerRad}, odrive::AxisSetup{4, -kPerRad}};
+    setup.axes = {CanAxis{3, kPerRad}, CanAxis{4, -kPerRad}};
     setup.stop = {.brake_radps2 = 8.0, .tolerance_radps = 0.5};
     return setup;
   }
@@ -150,7 +149,7 @@ struct Vesc {
   static constexpr double kPerRad = 25.0;  ///< electrical turns
   static Setup setup() {
     Setup setup;
-    setup.axes = {vesc::AxisSetup{23, kPerRad}, vesc::AxisSetup{24, -kPerRad}};
+    setup.axes = {CanAxis{23, kPerRad}, CanAxis{24, -kPerRad}};
     setup.stop = {.brake_radps2 = 15.0, .tolerance_radps = 0.5};
     return setup;
   }

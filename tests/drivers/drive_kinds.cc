@@ -13,12 +13,11 @@ namespace {
 
 template <class Kind>
 std::unique_ptr<DriveBench> make(const BenchChanges& changes) {
-  using Axis = typename decltype(Kind::Setup::axes)::value_type;
   auto setup = Kind::setup();
   setup.allow_unproved = changes.allow_unproved;
   const auto ids = changes.ids.value_or(Kind::kIds);
   const double per_rad = changes.per_rad.value_or(Kind::kPerRad);
-  setup.axes = {Axis{ids[0], per_rad}, Axis{ids[1], -per_rad}};
+  setup.axes = {CanAxis{ids[0], per_rad}, CanAxis{ids[1], -per_rad}};
   if (changes.tick != 20ms) {
     setup.stop = stop_limits(setup.stop.brake_radps2, setup.stop.tolerance_radps, changes.tick);
   }
@@ -33,11 +32,6 @@ DriveEvent on(void (*event)(typename Kind::Node&)) {
 }
 
 const DriveEvent kUnplugged = [](DriveBench& bench, std::size_t side) { bench.pull_cable(side); };
-
-template <class Stopper, std::uint8_t kLeft, std::uint8_t kRight>
-std::unique_ptr<EmergencyBrake> second_way(CanBus& bus) {
-  return std::make_unique<Stopper>(bus, std::array<std::uint8_t, 2>{kLeft, kRight});
-}
 
 CanFrame extended(std::uint32_t id, std::initializer_list<std::uint8_t> bytes) {
   CanFrame made = frame(id, bytes);
@@ -132,7 +126,9 @@ DriveKind cia402() {
       .jump = on<Cia402>([](auto& drive) { drive.jump(100.0 * Cia402::kPerRad); }),
       .unproved = "node 5: 6007h:0 stops when the controller is lost: wanted 0003h, refused (read only): NOT PROVED",
       .remedy = "use a drive that can prove it, or allow_unproved at your own risk",
-      .second_way = second_way<canopen::QuickStopper, 5, 6>,
+      .second_way = [](CanBus& bus) -> std::unique_ptr<EmergencyBrake> {
+        return std::make_unique<FrameBrake>(bus, canopen::quick_stop_frames({5, 6}));
+      },
       .foreign = "CAN: another master on the bus: ",
       .masters = {frame(0x701, {5}), frame(0x000, {1, 0}), frame(0x080, {}), frame(0x206, {0x0F, 0, 1, 0, 0, 0}),
                   frame(0x505, {0}), frame(0x205, {0x0F, 0, 0, 0, 0, 0}),
@@ -173,7 +169,10 @@ DriveKind odrive_axes() {
           .remedy =
               "set enable_watchdog, watchdog_timeout = 0.06 and can.heartbeat_msg_rate_ms = 10 in the ODrive, or "
               "allow_unproved at your own risk",
-          .second_way = second_way<odrive::Stopper, 3, 4>,
+          .second_way = [](CanBus& bus) -> std::unique_ptr<EmergencyBrake> {
+            return std::make_unique<FrameBrake>(
+                bus, std::vector{odrive::set_velocity(3, 0.0F), odrive::set_velocity(4, 0.0F)});
+          },
           .foreign = "CAN: another program commands the drives: frame ",
           .masters = masters_of_odrives(),
           .strangers = {frame(0x0AD, {0, 0, 0, 0}),       // a speed for node 5
@@ -212,7 +211,9 @@ DriveKind vescs() {
           .remedy =
               "set timeout and timeout brake current (App Settings, General) with VESC Tool, or allow_unproved at "
               "your own risk",
-          .second_way = second_way<vesc::Stopper, 23, 24>,
+          .second_way = [](CanBus& bus) -> std::unique_ptr<EmergencyBrake> {
+            return std::make_unique<FrameBrake>(bus, std::vector{vesc::set_erpm(23, 0), vesc::set_erpm(24, 0)});
+          },
           .foreign = "CAN: another program commands the drives: frame ",
           .masters = masters_of_vescs(),
           .strangers = {extended(0x0319, {0, 0, 0, 0}),              // a speed for controller 25

@@ -28,7 +28,7 @@ class PlantClock final : public Clock {
 
 inline canopen::DriveBaseSetup two_axes() {
   canopen::DriveBaseSetup setup;
-  setup.axes = {canopen::AxisSetup{5, 1000.0}, canopen::AxisSetup{6, -1000.0}};  // the right motor looks the other way
+  setup.axes = {CanAxis{5, 1000.0}, CanAxis{6, -1000.0}};  // the right motor looks the other way
   setup.settings = {.controller_node = 1,
                     .controller_timeout_ms = 100,
                     .heartbeat_ms = 50,

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "drivers/canopen/pdo.h"
+#include "drivers/canopen/cia402.h"
 
 namespace jaywalk::canopen {
 

@@ -9,7 +9,7 @@
 #include <thread>
 #include <vector>
 
-#include "drivers/panel/joystick_watch.h"
+#include "drivers/panel/joystick.h"
 #include "tests/drivers/hand_clock.h"
 #include "tests/support/allocation_guard.h"
 #include "tests/support/catch.h"

@@ -3,7 +3,7 @@
 #include "drivers/laser/ldrobot.h"
 #include "drivers/laser/lms200.h"
 #include "drivers/laser/rplidar.h"
-#include "drivers/laser/scip_protocol.h"
+#include "drivers/laser/scip.h"
 #include "drivers/laser/sick.h"
 #include "tests/drivers/serial_line.h"
 

@@ -1,7 +1,7 @@
 #include <chrono>
 #include <string>
 
-#include "drivers/laser/scip_protocol.h"
+#include "drivers/laser/scip.h"
 #include "tests/drivers/scanner_kinds.h"
 #include "tests/drivers/serial_line.h"
 

@@ -1,8 +1,8 @@
 // Recordings that were cut or changed anywhere: refused in words, or read where the format cannot tell.
 #include <random>
 
+#include "apps/formats/bag_file.h"
 #include "apps/formats/bag_log.h"
-#include "apps/formats/byte_file.h"
 #include "hal/types/errors.h"
 #include "tests/exchange/made_bags.h"
 #include "tests/recording/scratch.h"

@@ -4,7 +4,6 @@
 #include <limits>
 
 #include "apps/report/csv_file.h"
-#include "apps/report/moments.h"
 #include "apps/report/picture/scene.h"
 #include "tests/recording/scratch.h"
 #include "tests/support/catch.h"

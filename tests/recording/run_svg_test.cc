@@ -1,9 +1,8 @@
-#include "apps/report/picture/run_svg.h"
-
 #include <regex>
 
-#include "apps/report/picture/playback.h"
+#include "apps/report/picture/picture.h"
 #include "apps/report/picture/run_layers.h"
+#include "apps/report/picture/scene.h"
 #include "hal/types/errors.h"
 #include "tests/recording/made_scene.h"
 #include "tests/recording/scratch.h"

@@ -1,7 +1,6 @@
-#include "apps/formats/logs/wheel_trail.h"
-
 #include <cmath>
 
+#include "apps/formats/logs/recorded_log.h"
 #include "tests/support/catch.h"
 
 namespace jaywalk::sim {

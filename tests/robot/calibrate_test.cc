@@ -8,7 +8,7 @@
 #include "apps/setup/guided_drive.h"
 #include "hal/sim/simulation.h"
 #include "hal/types/errors.h"
-#include "hil/far_end/in_process_robot.h"
+#include "hil/far_end/simulated_robot.h"
 #include "tests/support/catch.h"
 
 using namespace jaywalk;
@@ -169,8 +169,8 @@ TEST_CASE("wheels that are not alike drive straight by a file that says so") {
   const auto& axes = file.drive.cia402.axes;
   // 76600 counts a turn; a metre at the left rim is 1 / 0.0985 of the wheel's own radians, and 1 / 0.0975 of the
   // loop's.
-  CHECK(axes[0].counts_per_rad == Approx(76600.0 / (2.0 * kPi) * 0.0975 / 0.0985));
-  CHECK(axes[1].counts_per_rad == Approx(-76600.0 / (2.0 * kPi) * 0.0975 / 0.0968));
+  CHECK(axes[0].per_rad == Approx(76600.0 / (2.0 * kPi) * 0.0975 / 0.0985));
+  CHECK(axes[1].per_rad == Approx(-76600.0 / (2.0 * kPi) * 0.0975 / 0.0968));
   CHECK(file.setup.model.drive.track_width_m == 0.341);
   CHECK(file.setup.model.drive.wheel_radius_m == 0.0975);
 }

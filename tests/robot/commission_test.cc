@@ -8,7 +8,7 @@
 #include "apps/setup/wiring_checks.h"
 #include "firmware/robot/commissioned.h"
 #include "hal/types/errors.h"
-#include "hil/far_end/in_process_robot.h"
+#include "hil/far_end/simulated_robot.h"
 #include "tests/support/catch.h"
 #include "tests/support/file_size_limit.h"
 
@@ -180,7 +180,7 @@ TEST_CASE("what was found is kept beside the robot file, and counts for that wir
   CHECK(read_commissioned(robot, bench.file).state == Commissioned::kPassed);
   CHECK(require_commissioned(robot, bench.file, false).empty());
   RobotFile changed = bench.file;
-  changed.drive.cia402.axes[0].counts_per_rad *= -1.0;
+  changed.drive.cia402.axes[0].per_rad *= -1.0;
   CHECK(says(require_commissioned(robot, changed, true), "changed since"));
   CHECK_THROWS_AS(require_commissioned(robot, changed, false), StartupError);
   write_commissioned(robot, bench.file, {{"left drive", true, "well"}, {"right drive", false, "broken"}});

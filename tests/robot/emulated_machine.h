@@ -10,7 +10,7 @@
 #include "apps/setup/robot_setup.h"
 #include "firmware/robot/robot_devices.h"
 #include "hal/types/errors.h"
-#include "hil/far_end/in_process_robot.h"
+#include "hil/far_end/simulated_robot.h"
 #include "tests/support/catch.h"
 
 namespace jaywalk {

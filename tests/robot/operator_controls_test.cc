@@ -1,5 +1,4 @@
-#include "firmware/robot/operator_controls.h"
-
+#include "firmware/robot/operator_desk.h"
 #include "hal/types/errors.h"
 #include "tests/support/catch.h"
 

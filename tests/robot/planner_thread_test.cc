@@ -1,8 +1,7 @@
-#include "firmware/robot/planner_thread.h"
-
 #include <atomic>
 #include <thread>
 
+#include "firmware/backends.h"
 #include "firmware/recording/recorded_hal.h"
 #include "tests/support/allocation_guard.h"
 #include "tests/support/catch.h"

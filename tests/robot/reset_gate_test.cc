@@ -1,4 +1,4 @@
-#include "firmware/robot/operator_controls.h"
+#include "firmware/robot/operator_desk.h"
 #include "tests/support/catch.h"
 
 using namespace jaywalk;

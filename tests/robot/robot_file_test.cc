@@ -43,8 +43,8 @@ TEST_CASE("a robot file says how the devices are wired") {
   CHECK(robot.drive.cia402.axes[0].node == 2);
   CHECK(robot.drive.cia402.axes[1].node == 3);
   // 76600 counts a turn are 12191.27 a radian.
-  CHECK(robot.drive.cia402.axes[0].counts_per_rad == Approx(12191.27));
-  CHECK(robot.drive.cia402.axes[1].counts_per_rad == Approx(-12191.27));
+  CHECK(robot.drive.cia402.axes[0].per_rad == Approx(12191.27));
+  CHECK(robot.drive.cia402.axes[1].per_rad == Approx(-12191.27));
   CHECK(robot.drive.cia402.settings.controller_timeout_ms == 100);
   CHECK_FALSE(robot.drive.cia402.allow_unproved);
   CHECK(robot.goal_heading_tolerance_rad == 0.1);
@@ -79,8 +79,8 @@ TEST_CASE("every kind of scanner and drive has its own keys") {
   const RobotFile odrives = load(with("cia402\"\ncan = \"can0\"\ncounts_per_wheel_turn = 76600",
                                       "odrive\"\ncan = \"can0\"\nmotor_turns_per_wheel_turn = 6.283185307179586"));
   CHECK(odrives.drive.kind == DriveKind::kOdrive);
-  CHECK(odrives.drive.odrive.axes[0].turns_per_rad == Approx(1.0));
-  CHECK(odrives.drive.odrive.axes[1].turns_per_rad == Approx(-1.0));
+  CHECK(odrives.drive.odrive.axes[0].per_rad == Approx(1.0));
+  CHECK(odrives.drive.odrive.axes[1].per_rad == Approx(-1.0));
   // The p3dx brakes with 1 m/s2 on wheels of 0.0975 m; 50 Hz.
   const double radius_m = odrives.setup.model.drive.wheel_radius_m;
   CHECK(odrives.drive.odrive.stop.brake_radps2 == Approx(odrives.setup.model.limits.brake_mps2 / radius_m));
@@ -89,7 +89,7 @@ TEST_CASE("every kind of scanner and drive has its own keys") {
   const RobotFile vescs = load(with("cia402\"\ncan = \"can0\"\ncounts_per_wheel_turn = 76600",
                                     "vesc\"\ncan = \"can0\"\nelectrical_turns_per_wheel_turn = 6.283185307179586"));
   CHECK(vescs.drive.kind == DriveKind::kVesc);
-  CHECK(vescs.drive.vesc.axes[1].electrical_turns_per_rad == Approx(-1.0));
+  CHECK(vescs.drive.vesc.axes[1].per_rad == Approx(-1.0));
   CHECK(refusal(with("cia402", "odrive")).rfind("10: drive.motor_turns_per_wheel_turn is missing; ", 0) == 0);
 }
 

@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/report/run_observer.h"
-#include "firmware/robot/planner_thread.h"
-#include "hil/far_end/in_process_robot.h"
+#include "firmware/backends.h"
+#include "hil/far_end/simulated_robot.h"
 #include "tests/support/catch.h"
 
 using namespace jaywalk;

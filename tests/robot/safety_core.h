@@ -9,7 +9,6 @@
 #include <string>
 
 #include "drivers/can/in_process_bus.h"
-#include "firmware/robot/operator_controls.h"
 #include "firmware/robot/operator_desk.h"
 #include "firmware/safety/supervisor.h"
 #include "hal/types/wheels.h"

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "firmware/robot/robot_file.h"
-#include "firmware/robot/robot_file_keys.h"
 #include "hal/robot_model_file.h"
 #include "hal/sim/scenario.h"
 #include "tests/robot/whole_settings.h"

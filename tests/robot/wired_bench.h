@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-#include "hil/far_end/in_process_robot.h"
+#include "hil/far_end/simulated_robot.h"
 #include "tests/support/allocation_guard.h"
 #include "tests/support/catch.h"
 

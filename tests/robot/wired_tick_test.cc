@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "apps/view/view_snapshot.h"
+#include "apps/view/view_scene.h"
 #include "tests/robot/wired_bench.h"
 #include "tests/support/file_size_limit.h"
 

@@ -9,11 +9,11 @@
 #include <future>
 #include <random>
 
+#include "firmware/backends.h"
 #include "firmware/robot/control_socket.h"
-#include "firmware/robot/planner_thread.h"
 #include "firmware/robot/robot_file.h"
 #include "hal/types/errors.h"
-#include "hil/far_end/in_process_robot.h"
+#include "hil/far_end/simulated_robot.h"
 #include "tests/support/catch.h"
 #include "tests/view/hostile_process.h"
 #include "tests/view/page_socket.h"

@@ -1,8 +1,7 @@
 // What clients may have, and how much.
-#include "apps/view/view_rules.h"
-
 #include <vector>
 
+#include "apps/view/view_client.h"
 #include "tests/support/catch.h"
 
 using namespace jaywalk::view;

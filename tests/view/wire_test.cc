@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "apps/view/foxglove_session.h"
-#include "apps/view/frame_store.h"
+#include "apps/view/live_view.h"
 #include "apps/view/view_orders.h"
 #include "apps/view/view_scene.h"
 #include "tests/support/catch.h"

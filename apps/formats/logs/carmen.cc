@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "apps/formats/logs/log_checks.h"
-#include "apps/formats/logs/log_times.h"
 #include "apps/formats/logs/recorded_log.h"
 #include "hal/shown_text.h"
 #include "hal/types/trig.h"

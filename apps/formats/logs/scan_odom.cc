@@ -3,7 +3,6 @@
 #include <cctype>
 
 #include "apps/formats/logs/log_checks.h"
-#include "apps/formats/logs/log_times.h"
 #include "apps/formats/logs/recorded_log.h"
 #include "hal/types/errors.h"
 

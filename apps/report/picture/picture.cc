@@ -1,15 +1,216 @@
 #include "apps/report/picture/picture.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <functional>
+#include <string>
 
 #include "apps/report/picture/cairo_library.h"
 #include "apps/report/picture/canvas.h"
 #include "apps/report/picture/field_layer.h"
 #include "apps/report/picture/run_layers.h"
-#include "apps/report/picture/sheet.h"
 
 namespace jaywalk {
 namespace {
+constexpr double kFactSize = 20.0, kFactLine = 30.0, kLegendLine = 36.0, kSwatch = 52.0;
+
+/// The round length (1, 2 or 5 times a power of ten) next above `at_least`.
+double round_length(double at_least) {
+  double decade = 0.001;
+  while (decade * 10.0 <= at_least) decade *= 10.0;
+  for (const double times : {1.0, 2.0, 5.0}) {
+    if (decade * times >= at_least) return decade * times;
+  }
+  return decade * 10.0;
+}
+
+std::string metres(double value) {
+  const double rounded = std::floor(value * 10.0 + 0.5) / 10.0;
+  const std::string text = std::to_string(rounded);
+  return std::floor(rounded) == rounded ? text.substr(0, text.find('.')) : text.substr(0, text.find('.') + 2);
+}
+
+/// A row of the legend: how its sample is drawn (about a middle point), and what it says.
+struct LegendRow {
+  std::function<void(Vec2)> sample;
+  std::string text;
+};
+
+void line_sample(Canvas& canvas, Vec2 at, const Pen& pen) {
+  canvas.stroke({at - Vec2{kSwatch / 2.0, 0.0}, at + Vec2{kSwatch / 2.0, 0.0}}, pen);
+}
+
+std::string moment_time(const PictureScene& scene) {
+  const Time begin = scene.driven.empty() ? Time{} : scene.driven.front().t;
+  return metres(to_seconds(scene.moment->t - begin)) + " s";
+}
+
+void add_map_rows(std::vector<LegendRow>& rows, Canvas& canvas, const PictureScene& scene) {
+  if (!scene.occupied.empty()) {
+    rows.push_back({[&](Vec2 at) { line_sample(canvas, at, {ink::kSeen, 7.0}); }, "walls seen"});
+  }
+  if (!scene.walls.empty()) {
+    rows.push_back({[&](Vec2 at) { line_sample(canvas, at, {ink::kWall, 5.0}); }, "walls"});
+  }
+  const auto add_zones = [&](ZoneKind kind, const char* text) {
+    const auto is_one = [kind](const MapZone& zone) { return zone.kind == kind; };
+    if (std::none_of(scene.zones.begin(), scene.zones.end(), is_one)) return;
+    rows.push_back({[&canvas, kind](Vec2 at) { line_sample(canvas, at, {colour_of(kind), 3.0, 8.0}); }, text});
+  };
+  add_zones(ZoneKind::kKeepOut, "keep-out zone");
+  add_zones(ZoneKind::kSpeed, "speed zone");
+  if (!scene.driven.empty()) {
+    rows.push_back({[&](Vec2 at) { line_sample(canvas, at, {ink::kRobot, 4.0}); }, "driven, with the time"});
+  }
+}
+
+void add_mover_rows(std::vector<LegendRow>& rows, Canvas& canvas, const PictureScene& scene) {
+  const auto line_with_disc = [&canvas](double radius) {
+    return [&canvas, radius](Vec2 at) {
+      line_sample(canvas, at, {colour_of(0).faded(0.7), 2.6});
+      canvas.fill_disc(at + Vec2{kSwatch / 2.0 - radius, 0.0}, radius, colour_of(0));
+    };
+  };
+  if (!scene.movers.empty()) {
+    rows.push_back({line_with_disc(10.0), scene.moment ? "movers at " + moment_time(scene) : "movers at the end"});
+  } else if (std::any_of(scene.tracks.begin(), scene.tracks.end(), went_somewhere)) {
+    rows.push_back({line_with_disc(5.0), "tracked as moving"});
+  }
+  if (std::any_of(scene.movers.begin(), scene.movers.end(), [](const Trail& t) { return t.flagged; })) {
+    rows.push_back({[&](Vec2 at) {
+                      canvas.fill_disc(at, 10.0, colour_of(0));
+                      canvas.stroke_circle(at, 10.0, {ink::kForced, 3.0});
+                    },
+                    "was forced to turn"});
+  }
+}
+
+void add_moment_rows(std::vector<LegendRow>& rows, Canvas& canvas, const PictureScene& scene) {
+  if (!scene.moment) return;
+  if (!scene.moment->field.psi.empty()) {
+    const Vec2 half{kSwatch / 2.0, 9.0};
+    const auto white = [&canvas, half](Vec2 at) {
+      canvas.stroke({at - half, at + Vec2{half.x, -half.y}, at + half, at + Vec2{-half.x, half.y}}, {ink::kFaint, 1.2},
+                    true);
+    };
+    const bool is_potential = scene.moment->field.of == FieldView::Of::kPotential;  // others end beyond the robot
+    rows.push_back({white, is_potential ? "no room for the robot then" : "no room then, or too far off"});
+  }
+  if (!scene.moment->band.empty()) {
+    rows.push_back({[&](Vec2 at) {
+                      line_sample(canvas, at, {ink::kBand, 3.2, 10.0});
+                    },
+                    "plan at " + moment_time(scene)});
+  }
+  if (!scene.moment->predictions.empty()) {
+    rows.push_back({[&](Vec2 at) {
+                      canvas.fill_disc(at, 13.0, ink::kBand.faded(0.12));
+                      canvas.stroke_circle(at, 13.0, {ink::kBand, 1.6, 6.0});
+                    },
+                    "expected there by then"});
+  }
+}
+
+void add_decision_rows(std::vector<LegendRow>& rows, Canvas& canvas, const PictureScene& scene) {
+  if (!scene.decision) return;
+  const auto line = [&canvas](const Colour& colour, double width) {
+    return [&canvas, colour, width](Vec2 at) { line_sample(canvas, at, {colour, width}); };
+  };
+  rows.push_back({line(ink::kBand, 3.6), "chosen, 6 s"});
+  for (std::size_t k = 0; k < std::min(scene.decision->ways.size(), kWayColours.size()); ++k) {
+    char dearer[32];
+    std::snprintf(dearer, sizeof dearer, "%+.1f s: ", static_cast<double>(scene.decision->ways[k].dearer_s));
+    rows.push_back({line(kWayColours[k], 2.4), dearer + scene.decision->ways[k].name});
+  }
+  if (!scene.decision->futures.empty()) {
+    rows.push_back({[&](Vec2 at) { canvas.fill_disc(at, 5.0, kFutureColour.faded(0.5)); }, "where bodies may be"});
+  }
+}
+
+double draw_facts(Canvas& canvas, const PictureScene& scene, Vec2 at, double width) {
+  for (const auto& [name, value] : scene.facts) {
+    canvas.write(at, name, {kFactSize, ink::kFaint});
+    canvas.write(at + Vec2{width, 0.0}, value, {kFactSize, ink::kText, Align::kRight, true});
+    at.y += kFactLine;
+  }
+  return at.y;
+}
+
+/// The field's colours from goal to far away.
+double draw_field_key(Canvas& canvas, Vec2 at, double width, const char* name) {
+  constexpr std::int32_t kColumns = 64, kRows = 4;
+  FieldRaster key{{0.0, 0.0}, kColumns, kRows, 1.0, {}};
+  for (std::int32_t i = 0; i < kRows * kColumns; ++i) key.psi.push_back(static_cast<float>(i % kColumns));
+  draw_field(canvas, MapFrame({{0.0, 0.0}, {kColumns, kRows}}, at, {width, width}), key);
+  canvas.write(at + Vec2{0.0, 40.0}, "goal", {16.0, ink::kFaint});
+  canvas.write(at + Vec2{width / 2.0, 40.0}, name, {16.0, ink::kFaint, Align::kCentre});
+  canvas.write(at + Vec2{width, 40.0}, "far", {16.0, ink::kFaint, Align::kRight});
+  return at.y + 70.0;
+}
+
+/// Why a plan may cross walls that the picture shows.
+void draw_note(Canvas& canvas, Vec2 at) {
+  const Lettering small{16.0, ink::kFaint};
+  canvas.write(at, "Plan and field rest on what had been", small);
+  canvas.write(at + Vec2{0.0, 22.0}, "seen by then; the walls came to be", small);
+  canvas.write(at + Vec2{0.0, 44.0}, "known in the whole run.", small);
+}
+
+void draw_axes(Canvas& canvas, const MapFrame& to_sheet) {
+  const Extent& e = to_sheet.extent();
+  const double step = round_length(std::max(to_sheet.width_m(), to_sheet.height_m()) / 14.0);
+  const Vec2 corner = to_sheet.upper_left();
+  const Vec2 size = to_sheet.size();
+  const Lettering numbers{18.0, ink::kFaint, Align::kCentre};
+  for (double x = std::ceil(e.low.x / step) * step; x <= e.high.x; x += step) {
+    const Vec2 at = to_sheet({x, e.low.y});
+    canvas.stroke({at, at + Vec2{0.0, 7.0}}, {ink::kFaint, 1.5});
+    canvas.write(at + Vec2{0.0, 27.0}, metres(x), numbers);
+  }
+  for (double y = std::ceil(e.low.y / step) * step; y <= e.high.y; y += step) {
+    const Vec2 at = to_sheet({e.low.x, y});
+    canvas.stroke({at, at - Vec2{7.0, 0.0}}, {ink::kFaint, 1.5});
+    canvas.write(at + Vec2{-12.0, 6.0}, metres(y), {18.0, ink::kFaint, Align::kRight});
+  }
+  canvas.stroke({corner, corner + Vec2{size.x, 0.0}, corner + size, corner + Vec2{0.0, size.y}}, {ink::kFaint, 1.5},
+                true);
+  canvas.write(corner + Vec2{size.x / 2.0, size.y + 54.0}, "x (m)", numbers);
+  canvas.write(corner + Vec2{-12.0, -12.0}, "y (m)", {18.0, ink::kFaint, Align::kRight});
+}
+
+void draw_scale_bar(Canvas& canvas, const MapFrame& to_sheet) {
+  const double length_m = round_length(to_sheet.width_m() / 14.0);
+  const Vec2 right = to_sheet.upper_left() + to_sheet.size() + Vec2{0.0, 44.0};
+  const Vec2 left = right - Vec2{to_sheet.pixels(length_m), 0.0};
+  canvas.stroke({left, right}, {ink::kText, 4.0});
+  canvas.stroke({left - Vec2{0.0, 6.0}, left + Vec2{0.0, 6.0}}, {ink::kText, 2.0});
+  canvas.stroke({right - Vec2{0.0, 6.0}, right + Vec2{0.0, 6.0}}, {ink::kText, 2.0});
+  canvas.write(left + Vec2{-12.0, 6.0}, metres(length_m) + " m", {18.0, ink::kText, Align::kRight});
+}
+
+/// Facts and legend in a column whose upper left corner is given.
+void draw_panel(Canvas& canvas, const PictureScene& scene, Vec2 upper_left, double width) {
+  Vec2 at = upper_left + Vec2{0.0, kFactSize};
+  at.y = draw_facts(canvas, scene, at, width);
+  at.y += 10.0;
+  if (scene.moment && !scene.moment->field.psi.empty()) {
+    const bool is_potential = scene.moment->field.of == FieldView::Of::kPotential;
+    at.y = draw_field_key(canvas, at, width, is_potential ? "potential" : "time to go");
+  }
+  std::vector<LegendRow> rows;
+  add_map_rows(rows, canvas, scene);
+  add_mover_rows(rows, canvas, scene);
+  add_moment_rows(rows, canvas, scene);
+  add_decision_rows(rows, canvas, scene);
+  for (const LegendRow& row : rows) {
+    row.sample(at + Vec2{kSwatch / 2.0, -6.0});
+    canvas.write(at + Vec2{kSwatch + 22.0, 0.0}, row.text, {19.0, ink::kText});
+    at.y += kLegendLine;
+  }
+  if (scene.moment) draw_note(canvas, at + Vec2{0.0, 4.0});
+}
+
 // The sheet: a margin for the axes on the left, the title above, the panel on the right.
 constexpr Vec2 kMapCorner{92.0, 104.0}, kMapMost{1400.0, 1300.0};
 constexpr double kPanelGap = 44.0, kPanelWidth = 330.0, kRightMargin = 36.0, kFoot = 76.0, kLeastHeight = 640.0;

@@ -4,7 +4,7 @@
 #include <array>
 #include <limits>
 
-#include "apps/report/picture/playback.h"
+#include "apps/report/picture/scene.h"
 
 namespace jaywalk {
 namespace {

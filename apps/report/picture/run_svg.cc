@@ -1,5 +1,3 @@
-#include "apps/report/picture/run_svg.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -7,8 +5,9 @@
 #include <set>
 
 #include "apps/report/markup.h"
-#include "apps/report/picture/playback.h"
+#include "apps/report/picture/picture.h"
 #include "apps/report/picture/run_layers.h"
+#include "apps/report/picture/scene.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk {

@@ -13,7 +13,6 @@
 #include "drivers/can/socketcan.h"
 #include "drivers/canopen/cia402.h"
 #include "drivers/canopen/drive_proof.h"
-#include "drivers/canopen/pdo.h"
 #include "drivers/canopen/sdo_client.h"
 #include "drivers/motor/odrive.h"
 #include "drivers/motor/vesc.h"

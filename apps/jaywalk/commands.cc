@@ -1,24 +1,15 @@
-#pragma once
-#include <CLI/CLI.hpp>
-#include <charconv>
-#include <optional>
-#include <string>
+#include "apps/jaywalk/commands.h"
 
-#include "apps/view/view_server.h"
-#include "firmware/program/run_command.h"
+#include <charconv>
+#include <cstdio>
+
 #include "hal/shown_text.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk {
+namespace {
 
-/// Adds the live page's options to `jaywalk run`, which add_robot_commands() has added.
-void add_run_view(CLI::App& app);
-
-/// A MakeObserver: tables and pictures, and the live page where it was asked for.
-[[nodiscard]] std::unique_ptr<TickObserver> observe_run(const RunOptions& options, const RobotFile& file,
-                                                        const std::filesystem::path& control_socket);
-
-inline std::uint16_t port_of(const std::string& word) {
+std::uint16_t port_of(const std::string& word) {
   std::uint16_t port = 0;
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), port);
   if (error == std::errc() && end == word.data() + word.size()) return port;
@@ -26,9 +17,17 @@ inline std::uint16_t port_of(const std::string& word) {
                      "give a whole number from 0 to 65535 (0: any that is free)");
 }
 
-/// --view [PORT], --view-address, --view-certificate and --view-origin. Parsing throws StartupError for what is no
-/// port.
-inline void add_view(CLI::App& command, std::optional<view::ViewAddress>& chosen) {
+}  // namespace
+
+double sound(const char* option, double value) {
+  constexpr double kFarthest = 1e6;
+  if (value >= -kFarthest && value <= kFarthest) return value;
+  char text[32];
+  std::snprintf(text, sizeof text, "%g", value);
+  throw StartupError(std::string(option) + ": " + text + " is no place", "give metres and radians");
+}
+
+void add_view(CLI::App& command, std::optional<view::ViewAddress>& chosen) {
   const auto here = [&chosen]() -> view::ViewAddress& { return chosen ? *chosen : chosen.emplace(); };
   command
       .add_option_function<std::string>(
