@@ -224,6 +224,14 @@ turn_rate_radps = 1.0
 spontaneous_turns_hz = 0.1
 legs = false
 [[movers]]
+kind = "social"
+count = 2
+speed_mps = 1.3
+radius_m = 0.25
+group = 2
+reaction = "curious"
+legs = true
+[[movers]]
 kind = "recorded"
 file = "ROWS"
 radius_m = 0.25
