@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <limits>
 
 #include "hal/types/robot_model.h"
@@ -29,16 +30,16 @@ struct WheelFeedback {
   double told_radps = std::numeric_limits<double>::infinity();  ///< infinity: not known
 };
 
-/// Follows a wheel's stop until its feedback confirms it, and says how far it must go where that does not (SAFETY 14).
+/// Follows a stop until both wheels' feedback confirms it, and says how far it must go where they do not (SAFETY 14).
 ///
-/// From the order on the wheel must stay below v - b (t - response), v its speed at the order, and say so with fresh
+/// From the order on each wheel must stay below v - b (t - response), v its speed at the order, and say so with fresh
 /// feedback. Where it was told to slow down before, v is at most what that left of it at the ramp b: a commanded ramp
 /// is not owed twice. One that does not takes the stop a stage further: quick stop, network stop, silence, one `stage`
-/// after the other. `confirmation` after the ramp it stands or is told nothing any more, whatever the loop's rate: a
-/// stage for which no cycle is left until then comes together with the next, or not at all. A stage is never gone back
-/// on before reset().
+/// after the other. `confirmation` after the ramp both wheels stand or nothing is sent any more, whatever the loop's
+/// rate: a stage for which no cycle is left until then comes together with the next, or not at all. A stage is never
+/// gone back on before reset().
 ///
-/// A stop that was commanded (both speeds zero) ends when the wheel stands; one because of trouble is watched until
+/// A stop that was commanded (both speeds zero) ends when both wheels stand; one because of trouble is watched until
 /// reset(): a wheel that turns again while the drives are in trouble takes it further. Thread: the drive base's; never
 /// allocates.
 class StopLadder {
@@ -46,20 +47,21 @@ class StopLadder {
   explicit StopLadder(const StopLimits& limits) noexcept : limits_(limits) {}
 
   /// Once a cycle, before what the drives are told. `stopping`: the command is zero for both wheels, or there is
-  /// trouble. `trouble`: the drives were told to quick-stop.
-  [[nodiscard]] StopStage update(Time now, bool stopping, bool trouble, const WheelFeedback& wheel) noexcept;
+  /// trouble. `trouble`: the drives were told to quick-stop. Left, right.
+  [[nodiscard]] StopStage update(Time now, bool stopping, bool trouble,
+                                 const std::array<WheelFeedback, 2>& wheels) noexcept;
   [[nodiscard]] StopStage stage() const noexcept { return stage_; }
   /// A person's reset edge: the next stop begins anew.
   void reset() noexcept;
 
  private:
-  /// What the wheel was told, falling with the ramp at most.
-  void follow_orders(Time now, const WheelFeedback& wheel) noexcept;
-  void begin(Time now, const WheelFeedback& wheel) noexcept;
+  /// What each wheel was told, falling with the ramp at most.
+  void follow_orders(Time now, const std::array<WheelFeedback, 2>& wheels) noexcept;
+  void begin(Time now, const std::array<WheelFeedback, 2>& wheels) noexcept;
   [[nodiscard]] bool is_over(Time now) const noexcept;
   /// Whether the feedback shows what the ramp allows now.
-  [[nodiscard]] bool is_kept(Time now, const WheelFeedback& wheel) const noexcept;
-  [[nodiscard]] bool is_at_rest(Time now, const WheelFeedback& wheel) const noexcept;
+  [[nodiscard]] bool is_kept(Time now, const std::array<WheelFeedback, 2>& wheels) const noexcept;
+  [[nodiscard]] bool is_at_rest(Time now, const std::array<WheelFeedback, 2>& wheels) const noexcept;
   [[nodiscard]] bool is_fresh(Time now, const WheelFeedback& wheel) const noexcept;
   void climb(Time now) noexcept;
 
@@ -68,10 +70,10 @@ class StopLadder {
   bool under_way_ = false, ended_ = false;
   bool trouble_ = false;
   Time ordered_ = kNever, climbed_ = kNever;
-  double longest_s_ = 0.0;  ///< of this stop: nothing is sent later to a wheel that does not stand
-  bool confirmed_ = false;  ///< it stood then
+  double longest_s_ = 0.0;  ///< of this stop: nothing is sent later to wheels that do not stand
+  bool confirmed_ = false;  ///< they stood then
   Time followed_ = kNever;
-  double told_radps_ = 0.0, owed_radps_ = 0.0, speed_at_order_ = 0.0;
+  std::array<double, 2> told_radps_{}, owed_radps_{}, speed_at_order_{};
 };
 
 }  // namespace jaywalk

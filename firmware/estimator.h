@@ -7,8 +7,8 @@
 
 #include "firmware/control_setup.h"
 #include "firmware/recording/tick_record.h"
-#include "firmware/safety/blind_gaps.h"
 #include "firmware/safety/rest_watch.h"
+#include "firmware/safety/unseen_walls.h"
 #include "hal/types/fixed_vector.h"
 #include "hal/types/robot_model.h"
 #include "planner/localization/localizer.h"

@@ -1,7 +1,7 @@
 #include <cstdio>
 #include <string>
 
-#include "apps/formats/mcap_writer.h"
+#include "apps/formats/run_exporter.h"
 #include "apps/jaywalk/commands.h"
 #include "apps/jaywalk/progress.h"
 #include "apps/why/recorded_run.h"

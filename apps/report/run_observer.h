@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/formats/mcap_writer.h"
+#include "apps/formats/run_exporter.h"
 #include "apps/report/picture/scene.h"
 #include "apps/report/run_report.h"
 #include "firmware/control_loop.h"

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "apps/setup/robot_setup.h"
+#include "drivers/can/can_interface.h"
 #include "drivers/can/socketcan.h"
 #include "drivers/laser/scanner_setup.h"
 #include "hal/types/errors.h"

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "drivers/wired_drive.h"
+#include "firmware/safety/felt_motion.h"
 #include "firmware/safety/latency.h"
-#include "firmware/safety/motion_model.h"
 #include "firmware/safety/stop_zone.h"
 #include "hal/hal.h"
 #include "hal/types/robot_model.h"

@@ -1,156 +1,18 @@
 #include "drivers/canopen/drive_base.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <utility>
 
-#include "drivers/canopen/drive_proof.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk::canopen {
 namespace {
 
-std::int32_t to_counts(double speed_radps, double per_rad) noexcept {
-  constexpr double kMost = 2147483647.0;
-  const double counts = std::clamp(speed_radps * per_rad, -kMost, kMost);
-  return static_cast<std::int32_t>(counts < 0.0 ? counts - 0.5 : counts + 0.5);
-}
-
-constexpr std::uint32_t kNmt = 0x000, kSync = 0x080, kLss = 0x7E5, kHeartbeat = 0x700, kSdoRequest = 0x600,
-                        kSdoAnswer = 0x580;
-constexpr std::array<std::uint32_t, 4> kReceivePdos{0x200, 0x300, 0x400, 0x500};
-
-std::string kind_of(std::uint32_t id) {
-  if (id == kNmt) return "NMT command";
-  if (id == kSync) return "SYNC";
-  if (id == kLss) return "LSS command";
-  const std::string node = " node " + std::to_string(id & 0x7FU);
-  const std::uint32_t base = id & ~0x7FU;
-  if (base == kHeartbeat) return "heartbeat of" + node;
-  if (base == kSdoRequest) return "SDO request to" + node;
-  if (base == kSdoAnswer) return "SDO answer that was not asked for, of" + node;
-  const bool from_drive = base == 0x180 || base == 0x280;  // of which two are too many
-  return (from_drive ? "process data, too often, of" : "process data to") + node;
-}
-
-}  // namespace
-
-WheelAxis::WheelAxis(const CanAxis& setup, Duration heartbeat, Duration showing) noexcept
-    : setup_(setup),
-      heartbeat_(heartbeat),
-      showing_(showing),
-      command_mapping_(command_pdo(setup.node).mapping),
-      status_mapping_(status_pdo(setup.node).mapping),
-      position_mapping_(position_pdo(setup.node).mapping) {}
-
-AxisNews WheelAxis::take(const ReceivedFrame& received) noexcept {
-  const CanFrame& frame = received.frame;
-  if (frame.extended) return {};
-  const auto heartbeat = decode_heartbeat(frame);
-  if (heartbeat && heartbeat->node == setup_.node) return take_heartbeat(heartbeat->state, received.stamp);
-  if (frame.id == 0x180U + setup_.node) return take_status(received);
-  if (frame.id == 0x280U + setup_.node) return take_position(frame);
-  return {};
-}
-
-AxisNews WheelAxis::take_heartbeat(NmtState state, Time stamp) noexcept {
-  has_twin_ = !heartbeats_.take_at(stamp, heartbeat_) || has_twin_;
-  network_ = state;
-  AxisNews news{.heartbeat = true};
-  if (state == NmtState::kBootUp)
-    news.trouble = DriveTrouble::kDriveRestarted;
-  else if (state != NmtState::kOperational)
-    news.trouble = DriveTrouble::kNotOperational;
-  return news;
-}
-
-AxisNews WheelAxis::take_status(const ReceivedFrame& received) noexcept {
-  has_twin_ = !statuses_.take() || has_twin_;
-  const auto values = unpack(status_mapping_, received.frame);
-  if (!values) return {};
-  state_ = state_of(static_cast<std::uint16_t>((*values)[0]));
-  speed_radps_ = static_cast<double>(static_cast<std::int32_t>((*values)[1])) / setup_.per_rad;
-  mode_ = static_cast<std::uint8_t>((*values)[2]);
-  unanswered_since_ = kNever;
-  return {.status = true, .trouble = mode_trouble(received.stamp)};
-}
-
-// The position wraps at 32 bits: the difference, as a signed number, is right across the wrap.
-AxisNews WheelAxis::take_position(const CanFrame& frame) noexcept {
-  has_twin_ = !positions_.take() || has_twin_;
-  const auto values = unpack(position_mapping_, frame);
-  if (!values) return {};
-  const std::uint32_t raw = (*values)[0];
-  const auto counted = static_cast<std::int32_t>(raw - std::exchange(raw_position_, raw));
-  return {.turned_rad = counted / setup_.per_rad};
-}
-
-DriveTrouble WheelAxis::mode_trouble(Time stamp) noexcept {
-  if (!is_enabled()) {
-    enabled_ = kNever;
-    showed_mode_ = false;
-    return DriveTrouble::kNone;
-  }
-  if (enabled_ == kNever) enabled_ = stamp;
-  if (!follows_speeds() && showed_mode_) return DriveTrouble::kDriveRestarted;
-  showed_mode_ = follows_speeds();
-  return !showed_mode_ && stamp - enabled_ > showing_ ? DriveTrouble::kNotProved : DriveTrouble::kNone;
-}
-
-void WheelAxis::begin() noexcept {
-  state_ = DriveState::kUnknown;
-  unanswered_since_ = enabled_ = kNever;
-  showed_mode_ = false;
-  heartbeats_ = statuses_ = positions_ = {};
-  has_twin_ = false;
-}
-
-void WheelAxis::note_sync(Time now) noexcept {
-  if (unanswered_since_ == kNever) unanswered_since_ = now;
-  statuses_.expect(1.0), positions_.expect(1.0);
-}
-
-CanFrame WheelAxis::target(DriveGoal goal, double wanted_radps) noexcept {
-  const std::uint16_t controlword = controlword_towards(goal, state_, resets_fault_);
-  if (state_ != DriveState::kUnknown) resets_fault_ = false;
-  const std::int32_t target = to_counts(wanted_radps, setup_.per_rad);
-  const std::array<std::uint32_t, 2> values{controlword, static_cast<std::uint32_t>(target)};
-  return pack(command_mapping_, 0x200U + setup_.node, values).value_or(CanFrame{});
-}
-
-CanFrame WheelAxis::quick_stop_request() const noexcept {
-  CanFrame frame;
-  frame.id = 0x600U + setup_.node;
-  frame.size = 8;
-  // An expedited write of two bytes to 6040h.
-  frame.bytes = {0x2B, 0x40, 0x60, 0x00};
-  frame.bytes[4] =
-      static_cast<std::uint8_t>(controlword_towards(DriveGoal::kQuickStop, DriveState::kOperationEnabled, false));
-  return frame;
-}
-
-Identifiers masters_identifiers(std::uint8_t controller_node, const std::array<std::uint8_t, 2>& drives) noexcept {
-  Identifiers ids;
-  bool fit =
-      ids.push_back(kNmt) && ids.push_back(kSync) && ids.push_back(kLss) && ids.push_back(kHeartbeat + controller_node);
-  for (const std::uint8_t node : drives) {
-    for (const std::uint32_t base : kReceivePdos) fit = fit && ids.push_back(base + node);
-    fit = fit && ids.push_back(kSdoRequest + node);
-  }
-  assert(fit);
-  static_cast<void>(fit);
-  return ids;
-}
-
-std::string describe_foreign(const CanFrame& frame) { return kind_of(frame.id) + " (" + to_text(frame) + ")"; }
-
-namespace {
-
 constexpr Duration kArmingStep = std::chrono::milliseconds(1);
 
 WheelAxis axis_of(const DriveBaseSetup& setup, std::size_t side) {
-  return {setup.axes[side], std::chrono::milliseconds(setup.settings.heartbeat_ms), setup.showing};
+  return {setup.axes[side], std::chrono::milliseconds(setup.settings.heartbeat_ms)};
 }
 
 DriveProof proof_for(CanBus& bus, const DriveBaseSetup& setup, std::size_t side) {
@@ -163,41 +25,51 @@ DriveProof proof_for(CanBus& bus, const DriveBaseSetup& setup, std::size_t side)
 }  // namespace
 
 CanopenDriveBase::CanopenDriveBase(CanBus& bus, Clock& clock, const DriveBaseSetup& setup)
-    : MotorPair(bus, clock,
-                {.silence_limit = setup.silence_limit,
-                 .settling = setup.settling,
-                 .stop = setup.stop,
-                 .allow_unproved = setup.allow_unproved}),
-      bus_(bus),
+    : bus_(bus),
+      clock_(clock),
       setup_(setup),
       axes_{axis_of(setup, 0), axis_of(setup, 1)},
       proofs_{proof_for(bus, setup, 0), proof_for(bus, setup, 1)},
-      masters_(masters_identifiers(setup.settings.controller_node, {setup.axes[0].node, setup.axes[1].node})) {
+      masters_(masters_identifiers(setup.settings.controller_node, {setup.axes[0].node, setup.axes[1].node})),
+      ladder_(setup.stop) {
   require_axes(setup.axes, {"node", 1, 127, setup.settings.controller_node});
 }
 
-StartupError CanopenDriveBase::refusal(const CanFrame& foreign) const {
-  return {"CAN: another master on the bus: " + describe_foreign(foreign),
-          "end the other program or machine, or give it a bus of its own"};
+std::vector<std::string> CanopenDriveBase::arm() {
+  begin_proof();
+  while (is_proving()) {
+    clock_.sleep_until(now() + kArmingStep);
+    static_cast<void>(latest());
+  }
+  if (trouble_ != DriveTrouble::kNone) refuse();
+  std::vector<std::string> report = proofs_[0].report();
+  for (std::string& line : proofs_[1].report()) report.push_back(std::move(line));
+  return report;
 }
 
-StartupError CanopenDriveBase::absence(std::size_t index) const {
-  return {"node " + std::to_string(axes_[index].node()) + ": no answer", kSilentDrive};
+void CanopenDriveBase::refuse() const {
+  if (foreign_) {
+    throw StartupError("CAN: " + std::string(name(trouble_)) + ": " + describe_foreign(*foreign_),
+                       "end the other program or machine, or give it a bus of its own");
+  }
+  for (const DriveProof& proof : proofs_) {
+    if (proof.state() != DriveProof::State::kFailed) continue;
+    throw StartupError(proof.failure(), proof.remedy());
+  }
+  throw StartupError("CAN: " + std::string(name(trouble_)), "see that the bus is up and the drives are powered");
 }
-
-std::vector<std::string> CanopenDriveBase::proof_report(std::size_t index) const { return proofs_[index].report(); }
 
 void CanopenDriveBase::conduct(ArmingProof& proof) {
   ReceivedFrame received;
   while (!proof.done()) {
-    proof.poll(clock().now());
-    clock().sleep_until(clock().now() + kArmingStep);
-    while (bus_.receive(received)) proof.on_frame(received.frame, clock().now());
+    proof.poll(clock_.now());
+    clock_.sleep_until(clock_.now() + kArmingStep);
+    while (bus_.receive(received)) proof.on_frame(received.frame, clock_.now());
   }
 }
 
 std::string CanopenDriveBase::inspect(std::size_t side) {
-  const std::uint8_t node = axes_[side].node();
+  const std::uint8_t node = axes_[side].setup().node;
   const std::string who = "node " + std::to_string(node);
   ArmingProof identity(bus_, node, identity_items(), setup_.answer_timeout);
   conduct(identity);
@@ -225,67 +97,77 @@ std::string CanopenDriveBase::inspect(std::size_t side) {
          " settings stand as arming writes them" + (lacking.empty() ? "" : "; " + lacking);
 }
 
-// Both at once: all that is wrong with both drives is to be known. arm() has listened already.
-void CanopenDriveBase::begin_proof(std::size_t index) noexcept {
-  if (index > 0) return;
-  fed_ = asks_ = false;
-  listens_since_ = is_armed() ? clock().now() : kNever;
-  asked_ = clock().now();
+void CanopenDriveBase::begin_proof() noexcept {
+  trouble_ = DriveTrouble::kNone;
+  fault_ = {};
+  foreign_.reset();
+  ladder_.reset();
+  awaits_zero_ = true;
+  phase_ = Phase::kListening;
+  began_ = now();
 }
 
-ProofResult CanopenDriveBase::continue_proof(std::size_t index) noexcept {
-  const Time now = clock().now();
-  if (listens_since_ != kNever && now - listens_since_ < kListening) return ProofResult::kUnderWay;
-  if (!std::exchange(asks_, true))
-    for (DriveProof& proof : proofs_) proof.begin(now);
-  asked_ = now;
-  for (DriveProof& proof : proofs_) {
-    proof.poll(now);                  // takes an answer, or asks what is next
-    if (is_armed()) proof.poll(now);  // a tick is longer than arming's steps: both
+// A step at a time; of what comes next, another master's frames may still say no.
+void CanopenDriveBase::follow_proof() noexcept {
+  if (phase_ == Phase::kListening) {
+    if (now() - began_ < setup_.listening) return;
+    phase_ = Phase::kProving;
+    for (DriveProof& proof : proofs_) proof.begin(now());
+    return;
   }
-  for (const DriveProof& proof : proofs_)
-    if (proof.state() != DriveProof::State::kPassed && proof.state() != DriveProof::State::kFailed)
-      return ProofResult::kUnderWay;
-  if (proofs_[index].state() == DriveProof::State::kFailed) return ProofResult::kFailed;
-  if (index == 1) {
-    fed_ = true;
-    for (std::size_t k = 0; k < axes_.size(); ++k) axes_[k].begin(), note_heard(k, now);
-  }
-  return ProofResult::kPassed;
+  const auto count = [this](DriveProof::State state) {
+    return std::count_if(proofs_.begin(), proofs_.end(), [state](const DriveProof& p) { return p.state() == state; });
+  };
+  for (DriveProof& proof : proofs_) proof.poll(now());
+  const auto failed = count(DriveProof::State::kFailed);
+  // All that is wrong with both drives is to be known: the one waits for the other.
+  if (failed + count(DriveProof::State::kPassed) < 2) return;
+  if (failed > 0) return latch(DriveTrouble::kNotProved);
+  begin_operation();
 }
 
-void CanopenDriveBase::watch_motor(std::size_t index) noexcept {
-  if (!fed_) return;
-  if (axes_[index].is_unanswered(clock().now(), setup_.stop.fresh)) lose_proof(DriveTrouble::kDriveSilent);
-  if (axes_[index].in_fault()) report_fault(DriveTrouble::kDriveFault, {});
+void CanopenDriveBase::begin_operation() noexcept {
+  phase_ = Phase::kProved;
+  began_ = now();
+  bus_watch_.begin(bus_.health());
+  const bool heard_all = std::exchange(frames_lost_, bus_.health().frames_lost) == bus_.health().frames_lost;
+  for (std::size_t k = 0; k < axes_.size(); ++k) {
+    const bool counts_on = axes_[k].begin(proofs_[k].heard(), began_ + setup_.settling, heard_all);
+    counts_on_ = counts_on_ && counts_on;
+  }
+}
+
+WheelState CanopenDriveBase::latest() noexcept {
+  ReceivedFrame received;
+  for (int taken = 0; taken < kMostFramesATick && bus_.receive(received); ++taken) take(received);
+  if (is_proving()) follow_proof();
+  watch();
+  wheels_.trouble = trouble_;
+  wheels_.fault = fault_;
+  wheels_.stop = ladder_.stage();
+  wheels_.ready = is_proved() && !awaits_zero_ && follow_speeds();
+  return wheels_;
 }
 
 void CanopenDriveBase::take(const ReceivedFrame& received) noexcept {
-  if (is_foreign(received)) note_foreign(received.frame);
+  if (phase_ != Phase::kUnproved && is_foreign(received)) note_foreign(received.frame);
   const auto emergency = decode_emergency(received.frame);
   for (std::size_t k = 0; k < axes_.size(); ++k) {
-    if (asks_ && !fed_) proofs_[k].on_frame(received);
-    take_axis(k, received);
+    axes_[k].take(received);
+    if (phase_ == Phase::kProved && axes_[k].has_twin()) note_foreign(received.frame);
+    if (phase_ == Phase::kProving) proofs_[k].on_frame(received);
     // Before that it tells of what was: that it missed the heartbeat.
-    if (!fed_ || !emergency || emergency->error_code == 0 || emergency->node != axes_[k].node()) continue;
+    const bool tells = phase_ == Phase::kProved && emergency && emergency->error_code != 0;
+    if (!tells || emergency->node != axes_[k].setup().node) continue;
     note({DriveFaultKind::kEmergency, emergency->node, emergency->error_code});
     latch(DriveTrouble::kEmergency);
   }
+  publish(received.stamp);
 }
 
-void CanopenDriveBase::take_axis(std::size_t index, const ReceivedFrame& received) noexcept {
-  WheelAxis& axis = axes_[index];
-  const AxisNews news = axis.take(received);
-  if (news.heartbeat && fed_) note_heard(index, received.stamp);  // before, it may not be set up to say any
-  if (news.turned_rad) note_turned(index, received.stamp, *news.turned_rad);
-  if (news.status) {
-    note_speed(index, received.stamp, axis.speed_radps());
-    note_obeys(index, axis.follows_speeds());
-  }
-  if (!fed_) return;
-  if (axis.has_twin()) note_foreign(received.frame);
-  if (news.trouble == DriveTrouble::kNotProved) note({DriveFaultKind::kMode, axis.node(), axis.mode()});
-  if (news.trouble != DriveTrouble::kNone) latch(news.trouble);
+void CanopenDriveBase::note_foreign(const CanFrame& frame) noexcept {
+  if (!foreign_) foreign_ = frame;
+  latch(DriveTrouble::kForeignMaster);
 }
 
 bool CanopenDriveBase::is_foreign(const ReceivedFrame& received) const noexcept {
@@ -293,37 +175,112 @@ bool CanopenDriveBase::is_foreign(const ReceivedFrame& received) const noexcept 
   if (frame.extended || frame.remote) return false;
   if (std::find(masters_.begin(), masters_.end(), frame.id) != masters_.end()) return true;
   // An answer to an SDO request of another's. Ours may come as long as a transfer takes.
-  if (trouble() != DriveTrouble::kNone || age(asked_, received.stamp) <= setup_.answer_timeout) return false;
+  const bool asks = phase_ == Phase::kProving || trouble_ != DriveTrouble::kNone;
+  if (asks || received.stamp - began_ <= setup_.answer_timeout) return false;
   return std::any_of(axes_.begin(), axes_.end(),
-                     [&](const WheelAxis& axis) { return frame.id == 0x580U + axis.node(); });
+                     [&](const WheelAxis& axis) { return frame.id == 0x580U + axis.setup().node; });
 }
 
-// A drive that was not proved is not fed, nor are both where one did not obey a quick stop.
-void CanopenDriveBase::begin_cycle() noexcept {
-  commands_ = false;
-  if (fed_ && stop_stage() < StopStage::kNetworkStop)
-    send(heartbeat_frame(setup_.settings.controller_node, NmtState::kOperational));
+void CanopenDriveBase::publish(Time stamp) noexcept {
+  if (!axes_[0].is_complete() || !axes_[1].is_complete()) return;
+  wheels_ = {.stamp = stamp,
+             .sequence = counts_on_ ? wheels_.sequence + 1 : 1,
+             .left_rad = axes_[0].turned_rad(),
+             .right_rad = axes_[1].turned_rad(),
+             .left_radps = axes_[0].feedback().speed_radps,
+             .right_radps = axes_[1].feedback().speed_radps};
+  counts_on_ = true;
+  for (WheelAxis& axis : axes_) axis.used();
 }
 
-void CanopenDriveBase::send_order(std::size_t index, MotorOrder order, double speed_radps) noexcept {
-  const bool in_trouble = trouble() != DriveTrouble::kNone;
-  if (!fed_ && !in_trouble) return;  // no drive was armed
-  commands_ = true;
-  WheelAxis& axis = axes_[index];
-  send(axis.target(in_trouble                  ? DriveGoal::kQuickStop
-                   : order == MotorOrder::kOff ? DriveGoal::kOff
-                                               : DriveGoal::kEnabled,
-                   speed_radps));
-  if (order == MotorOrder::kNetworkStop)
-    send(nmt_frame(NmtCommand::kStop, axis.node()));
-  else if (in_trouble && !axis.is_operational())
-    send(axis.quick_stop_request());
+void CanopenDriveBase::watch() noexcept {
+  if (phase_ != Phase::kProved) return;
+  if (!bus_watch_.is_well(bus_.health())) latch(DriveTrouble::kBusUnwell);
+  for (WheelAxis& axis : axes_) {
+    const DriveTrouble trouble = axis.trouble(now(), {setup_.silence_limit, setup_.stop.fresh, setup_.showing});
+    if (trouble == DriveTrouble::kNotProved) note({DriveFaultKind::kMode, axis.setup().node, axis.mode()});
+    if (trouble != DriveTrouble::kNone) latch(trouble);
+  }
 }
 
-void CanopenDriveBase::end_cycle() noexcept {
-  if (!commands_) return;
+void CanopenDriveBase::note(const DriveFault& fault) noexcept {
+  if (!fault_.is_told()) fault_ = fault;
+}
+
+// The first trouble is the one worth knowing: the others follow from it. A proof that is under way is over.
+void CanopenDriveBase::latch(DriveTrouble trouble) noexcept {
+  if (trouble_ == DriveTrouble::kNone) trouble_ = trouble;
+  if (is_proving()) phase_ = Phase::kUnproved;
+}
+
+void CanopenDriveBase::reset() noexcept {
+  if (is_proving()) return;
+  if (!is_proved()) return begin_proof();
+  awaits_zero_ = true;
+  ladder_.reset();
+}
+
+bool CanopenDriveBase::follow_speeds() const noexcept {
+  return is_enabled() && axes_[0].follows_speeds() && axes_[1].follows_speeds();
+}
+
+bool CanopenDriveBase::is_enabled() const noexcept {
+  return phase_ == Phase::kProved && axes_[0].is_enabled() && axes_[1].is_enabled();
+}
+
+void CanopenDriveBase::command(const WheelCommand& command) noexcept {
+  if (is_proving()) return follow_proof();
+  const bool finite = std::isfinite(command.left_radps) && std::isfinite(command.right_radps);
+  const bool is_zero = command.left_radps == 0.0 && command.right_radps == 0.0;
+  if (is_zero && is_proved()) awaits_zero_ = false;
+  const bool moves = !awaits_zero_ && follow_speeds() && finite;  // both wheels or none
+  cycle(awaits_zero_ ? DriveGoal::kOff : DriveGoal::kEnabled, is_zero || !finite, moves ? command.left_radps : 0.0,
+        moves ? command.right_radps : 0.0);
+}
+
+void CanopenDriveBase::disarm() noexcept {
+  awaits_zero_ = true;
+  if (is_proving()) phase_ = Phase::kUnproved;
+  cycle(are_at_rest() ? DriveGoal::kOff : DriveGoal::kQuickStop, true, 0.0, 0.0);
+}
+
+bool CanopenDriveBase::are_at_rest() const noexcept {
+  return std::all_of(axes_.begin(), axes_.end(), [this](const WheelAxis& axis) {
+    return std::fabs(axis.feedback().speed_radps) <= setup_.stop.tolerance_radps;
+  });
+}
+
+void CanopenDriveBase::cycle(DriveGoal goal, bool stopping, double left_radps, double right_radps) noexcept {
+  if (phase_ != Phase::kProved && trouble_ == DriveTrouble::kNone)
+    return;  // neither drive is armed, or a proof is under way
+  const bool in_trouble = trouble_ != DriveTrouble::kNone;
+  std::array<WheelFeedback, 2> felt{axes_[0].feedback(), axes_[1].feedback()};
+  felt[0].told_radps = left_radps;
+  felt[1].told_radps = right_radps;
+  const StopStage stage = ladder_.update(now(), stopping || in_trouble, in_trouble, felt);
+  if (stage != StopStage::kNone) latch(DriveTrouble::kStopUnconfirmed);
+  if (stage == StopStage::kSilent) return;
+  // A drive that was not proved is not fed, nor is one that did not obey a quick stop.
+  const bool feeds = phase_ == Phase::kProved && stage != StopStage::kNetworkStop;
+  if (feeds) send(heartbeat_frame(setup_.settings.controller_node, NmtState::kOperational));
+  if (stage == StopStage::kNone) return send_targets(goal, left_radps, right_radps);
+  send_targets(DriveGoal::kQuickStop, 0.0, 0.0);
+  for (const WheelAxis& axis : axes_)
+    if (stage == StopStage::kNetworkStop)
+      send(nmt_frame(NmtCommand::kStop, axis.setup().node));
+    else if (!axis.is_operational())
+      send(axis.quick_stop_request());
+}
+
+void CanopenDriveBase::send_targets(DriveGoal goal, double left_radps, double right_radps) noexcept {
+  send(axes_[0].target(goal, left_radps));
+  send(axes_[1].target(goal, right_radps));
   send(sync_frame());
-  for (WheelAxis& axis : axes_) axis.note_sync(clock().now());
+  for (WheelAxis& axis : axes_) axis.note_sync(now());
+}
+
+void CanopenDriveBase::send(const CanFrame& frame) noexcept {
+  if (bus_.send(frame) != SendResult::kQueued) latch(DriveTrouble::kBusRefused);
 }
 
 }  // namespace jaywalk::canopen

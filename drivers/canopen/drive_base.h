@@ -1,5 +1,4 @@
 #pragma once
-// Two CiA 402 drives as a drive base: what each says, its proof, and the frames that command both.
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -7,99 +6,17 @@
 #include <vector>
 
 #include "drivers/can/can_bus.h"
-#include "drivers/canopen/cia402.h"
 #include "drivers/canopen/drive_proof.h"
-#include "drivers/motor/motor_pair.h"
+#include "drivers/canopen/wheel_axis.h"
 #include "drivers/wired_drive.h"
-#include "hal/types/fixed_vector.h"
-#include "hal/types/wheels.h"
 
 namespace jaywalk::canopen {
-
-/// What one frame told of a drive.
-struct AxisNews {
-  bool heartbeat = false, status = false;
-  std::optional<double> turned_rad = {};       ///< of its wheel, since the position before
-  DriveTrouble trouble = DriveTrouble::kNone;  ///< of network state or mode; kNotProved: not in the mode in time
-};
-
-/// State of one drive by its frames: network state, power state, mode, speed and position of its wheel. Never
-/// allocates.
-class WheelAxis {
- public:
-  /// `heartbeat`: period of the drive's own, 1017h. `showing`: most from enabling until it shows its mode.
-  WheelAxis(const CanAxis& setup, Duration heartbeat, Duration showing) noexcept;
-
-  /// Any frame of the bus; those that are not this drive's are passed over.
-  AxisNews take(const ReceivedFrame& received) noexcept;
-  /// The drive was proved: what it does from now on counts.
-  void begin() noexcept;
-  /// A SYNC was sent.
-  void note_sync(Time now) noexcept;
-  /// Has a fault reset with the next command: once, after a person's reset.
-  void reset_fault() noexcept { resets_fault_ = true; }
-  /// Since begin() its node number spoke more often than one drive does: a second drive has it.
-  [[nodiscard]] bool has_twin() const noexcept { return has_twin_; }
-  /// Longer than `limit` since the first SYNC that it did not answer.
-  [[nodiscard]] bool is_unanswered(Time now, Duration limit) const noexcept {
-    return unanswered_since_ != kNever && now - unanswered_since_ > limit;
-  }
-  /// Process data for one cycle.
-  [[nodiscard]] CanFrame target(DriveGoal goal, double wanted_radps) noexcept;
-  /// The quick stop as an SDO request, which a drive takes that takes no process data (Pre-operational).
-  [[nodiscard]] CanFrame quick_stop_request() const noexcept;
-
-  [[nodiscard]] std::uint8_t node() const noexcept { return setup_.node; }
-  [[nodiscard]] bool is_enabled() const noexcept { return state_ == DriveState::kOperationEnabled; }
-  [[nodiscard]] bool in_fault() const noexcept {
-    return state_ == DriveState::kFault || state_ == DriveState::kFaultReactionActive;
-  }
-  /// Enabled, and in the mode that takes speeds. Many drives show their mode (6061h) only once enabled, and late.
-  [[nodiscard]] bool follows_speeds() const noexcept { return is_enabled() && mode_ == kProfileVelocityMode; }
-  /// Value of 6061h.
-  [[nodiscard]] std::uint8_t mode() const noexcept { return mode_; }
-  /// True by its last heartbeat.
-  [[nodiscard]] bool is_operational() const noexcept { return network_ == NmtState::kOperational; }
-  [[nodiscard]] double speed_radps() const noexcept { return speed_radps_; }
-
- private:
-  [[nodiscard]] AxisNews take_heartbeat(NmtState state, Time stamp) noexcept;
-  [[nodiscard]] AxisNews take_status(const ReceivedFrame& received) noexcept;
-  [[nodiscard]] AxisNews take_position(const CanFrame& frame) noexcept;
-  [[nodiscard]] DriveTrouble mode_trouble(Time stamp) noexcept;
-
-  CanAxis setup_;
-  Duration heartbeat_, showing_;
-  PdoMapping command_mapping_, status_mapping_, position_mapping_;
-  NmtState network_ = NmtState::kBootUp;
-  DriveState state_ = DriveState::kUnknown;
-  std::uint8_t mode_ = 0;
-  double speed_radps_ = 0.0;
-  std::uint32_t raw_position_ = 0;
-  Time unanswered_since_ = kNever;
-  Time enabled_ = kNever;     ///< since when it was seen to be
-  bool showed_mode_ = false;  ///< since then
-  bool resets_fault_ = false;
-  FrameRate heartbeats_, statuses_, positions_;
-  bool has_twin_ = false;
-};
-
-// Frames on the drives' bus that only a master sends (CiA 301). Own frames do not come back (can_bus.h): one that comes
-// in was sent by another program or machine.
-
-using Identifiers = FixedVector<std::uint32_t, 16>;
-
-/// NMT commands, SYNC, LSS; the heartbeat under the controller's node; RPDOs 1 to 4 and SDO requests of both drives.
-[[nodiscard]] Identifiers masters_identifiers(std::uint8_t controller_node,
-                                              const std::array<std::uint8_t, 2>& drives) noexcept;
-
-/// "heartbeat with the controller's node (701#05)". Not for the loop.
-[[nodiscard]] std::string describe_foreign(const CanFrame& frame);
 
 struct DriveBaseSetup {
   std::array<CanAxis, 2> axes;  ///< left, right: counts a radian of the wheel
   DriveSettings settings;
   StopLimits stop;
+  Duration listening = std::chrono::milliseconds(300);       ///< for another master, before anything is sent
   Duration answer_timeout = std::chrono::milliseconds(100);  ///< of one transfer while arming
   Duration starting = std::chrono::milliseconds(500);        ///< from NMT start until a drive says it is operational
   Duration silence_limit = std::chrono::milliseconds(150);   ///< a drive that says no heartbeat for so long is lost
@@ -108,57 +25,95 @@ struct DriveBaseSetup {
   bool allow_unproved = false;  ///< arms although a drive did not prove that it stops by itself
 };
 
-/// Two CiA 402 axes in profile velocity.
+/// Two CiA 402 axes as one drive base in profile velocity.
 ///
-/// A cycle is the controller's heartbeat, both targets and SYNC: so the heartbeat is the tick's, and a dead loop is a
-/// silent one, for which the drives were proved to stop by themselves. At any trouble both drives are quick-stopped. A
-/// wheel whose feedback does not confirm that has its drive NMT-stopped, and no heartbeat is sent any more, so that
-/// both drives' own watchdogs act (SAFETY 14).
+/// `latest` takes in what came, `command` sends the controller's heartbeat, both targets and SYNC: so the heartbeat is
+/// the tick's, and a dead loop is a silent one, for which the drives were proved to stop by themselves. At any trouble
+/// both drives are quick-stopped, and the stop is held against the wheels' feedback: where that does not confirm it,
+/// they are NMT-stopped, and then nothing is sent at all until reset(), so that their own watchdogs act (SAFETY 14).
 ///
-/// Arming proof: DriveProof of both drives at once, after a time of listening. Meanwhile they have no torque and no
-/// heartbeat.
-class CanopenDriveBase final : public MotorPair {
+/// The wheels turn only after the whole proof of both drives and a command of zero. arm() waits for that proof; after a
+/// trouble reset() begins it anew, and it goes on with every latest() and command(). Meanwhile the drives have no
+/// torque and no heartbeat, and there is no trouble. Thread: one.
+class CanopenDriveBase final : public WiredDrive {
  public:
   /// `bus` and `clock` outlive it. Throws StartupError where the setup cannot be.
   CanopenDriveBase(CanBus& bus, Clock& clock, const DriveBaseSetup& setup);
+
+  /// Start-up only, waits up to some seconds: listens for another master, sets up and proves both drives, then starts
+  /// their process data. Throws StartupError that names the first thing not proved, unless allow_unproved.
+  /// Returns what each drive said, one line a setting, for the record.
+  std::vector<std::string> arm() override;
   [[nodiscard]] std::string inspect(std::size_t side) override;
-  /// What drives say that are to be proved anew tells of what was.
-  void reset() noexcept override {
-    MotorPair::reset();
-    fed_ = fed_ && is_proved();
+
+  [[nodiscard]] WheelState latest() noexcept override;
+  /// A speed that is not finite counts as trouble on the controller's side: zero is sent instead.
+  void command(const WheelCommand& command) noexcept override;
+
+  [[nodiscard]] DriveTrouble trouble() const noexcept override { return trouble_; }
+  [[nodiscard]] bool is_proved() const noexcept override {
+    return phase_ == Phase::kProved && trouble_ == DriveTrouble::kNone;
   }
-  [[nodiscard]] bool is_enabled() const noexcept override { return axes_[0].is_enabled() && axes_[1].is_enabled(); }
+  [[nodiscard]] std::optional<CanFrame> foreign_frame() const noexcept override { return foreign_; }
+  /// A person's reset edge: forgets the trouble and, where there was one, begins the proof of both drives; the drives
+  /// are enabled again at the next command of zero after it. A proof that is under way goes on.
+  [[nodiscard]] bool is_silent() const noexcept override {
+    return axes_[0].is_silent(clock_.now(), setup_.silence_limit) ||
+           axes_[1].is_silent(clock_.now(), setup_.silence_limit);
+  }
+  void reset() noexcept override;
+  [[nodiscard]] bool is_enabled() const noexcept override;
+  /// Wheels that still turn are braked first.
+  void disarm() noexcept override;
 
  private:
+  enum class Phase : std::uint8_t { kUnproved, kListening, kProving, kProved };
+
+  [[nodiscard]] Time now() noexcept { return clock_.now(); }
   /// Lets a proof of the caller's run to its end.
   void conduct(ArmingProof& proof);
-  void take(const ReceivedFrame& received) noexcept override;
-  void take_axis(std::size_t index, const ReceivedFrame& received) noexcept;
+  [[noreturn]] void refuse() const;
+
+  void begin_proof() noexcept;
+  void follow_proof() noexcept;
+  void begin_operation() noexcept;
+  [[nodiscard]] bool is_proving() const noexcept { return phase_ == Phase::kListening || phase_ == Phase::kProving; }
+
+  void take(const ReceivedFrame& received) noexcept;
   [[nodiscard]] bool is_foreign(const ReceivedFrame& received) const noexcept;
-  void begin_cycle() noexcept override;
-  void send_order(std::size_t index, MotorOrder order, double speed_radps) noexcept override;
-  void end_cycle() noexcept override;
-  void send_reset(std::size_t index) noexcept override { axes_[index].reset_fault(); }
-  /// It says nothing before it is set up.
-  [[nodiscard]] bool shows_itself(std::size_t) const noexcept override { return true; }
-  void watch_motor(std::size_t index) noexcept override;
-  void begin_proof(std::size_t index) noexcept override;
-  ProofResult continue_proof(std::size_t index) noexcept override;
-  [[nodiscard]] std::vector<std::string> proof_report(std::size_t index) const override;
-  [[nodiscard]] std::string proof_line(std::size_t index) const override { return proofs_[index].failure(); }
-  [[nodiscard]] std::string proof_remedy(std::size_t index) const override { return proofs_[index].remedy(); }
-  [[nodiscard]] StartupError absence(std::size_t index) const override;
-  [[nodiscard]] StartupError refusal(const CanFrame& foreign) const override;
+  /// A frame of another master's, or of a second drive with a number of ours.
+  void note_foreign(const CanFrame& frame) noexcept;
+  void publish(Time stamp) noexcept;
+  void watch() noexcept;
+  void latch(DriveTrouble trouble) noexcept;
+  /// Keeps the first fault that a drive reports; later ones follow from it.
+  void note(const DriveFault& fault) noexcept;
+
+  /// A cycle on the bus, as far as the stop has come.
+  void cycle(DriveGoal goal, bool stopping, double left_radps, double right_radps) noexcept;
+  void send_targets(DriveGoal goal, double left_radps, double right_radps) noexcept;
+  void send(const CanFrame& frame) noexcept;
+  [[nodiscard]] bool are_at_rest() const noexcept;
+  /// Both drives are enabled and show the mode that takes speeds.
+  [[nodiscard]] bool follow_speeds() const noexcept;
 
   CanBus& bus_;
+  Clock& clock_;
   DriveBaseSetup setup_;
   std::array<WheelAxis, 2> axes_;
   std::array<DriveProof, 2> proofs_;
   Identifiers masters_;
-  bool fed_ = false;       ///< proved: it gets heartbeats
-  bool commands_ = false;  ///< a drive was told something in this cycle
-  bool asks_ = false;      ///< the proof is past listening
-  Time listens_since_ = kNever, asked_ = kNever;
+  StopLadder ladder_;
+  WheelState wheels_;
+  bool counts_on_ = true;          ///< both angles, since the last reading
+  std::uint64_t frames_lost_ = 0;  ///< when its operation began last
+  DriveTrouble trouble_ = DriveTrouble::kNone;
+  DriveFault fault_;
+  std::optional<CanFrame> foreign_;
+  Phase phase_ = Phase::kUnproved;
+  Time began_ = kNever;  ///< this phase
+  bool awaits_zero_ = true;
+  BusWatch bus_watch_;
 };
 
 }  // namespace jaywalk::canopen

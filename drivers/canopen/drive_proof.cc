@@ -278,9 +278,12 @@ void DriveProof::on_frame(const ReceivedFrame& received) noexcept {
   const bool is_operational = heartbeat->state == NmtState::kOperational;
   if (state_ == State::kStarting && is_operational && received.stamp >= started_) {
     state_ = State::kPassed;
+    heard_ = received.stamp;
     if (!passed_first_) passed_first_ = asked_->lines();
   } else if (state_ == State::kPassed && !is_operational) {
     state_ = State::kFailed;
+  } else if (state_ == State::kPassed) {
+    heard_ = received.stamp;
   }
 }
 

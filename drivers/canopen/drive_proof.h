@@ -150,6 +150,8 @@ class DriveProof {
   void poll(Time now) noexcept;
 
   [[nodiscard]] State state() const noexcept { return state_; }
+  /// Of the heartbeat that ended it.
+  [[nodiscard]] Time heard() const noexcept { return heard_; }
   /// What the drive said so far, a line a setting. Not for the loop.
   [[nodiscard]] std::vector<std::string> report() const;
   /// Why it failed, and what to do. Not for the loop.
@@ -168,7 +170,7 @@ class DriveProof {
   State state_ = State::kIdle;
   std::optional<ArmingProof> asked_;
   std::optional<ArmingProof::Lines> passed_first_;
-  Time started_ = kNever;
+  Time started_ = kNever, heard_ = kNever;
 };
 
 }  // namespace jaywalk::canopen

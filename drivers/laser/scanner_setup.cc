@@ -8,7 +8,7 @@
 #include "drivers/laser/rplidar.h"
 #include "drivers/laser/scip.h"
 #include "drivers/laser/sick.h"
-#include "drivers/ros/ros_base.h"
+#include "drivers/ros/ros_scan.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk {

@@ -26,7 +26,7 @@ WheelState MotorPair::latest() noexcept {
   wheels_.trouble = trouble_;
   wheels_.fault = fault_;
   wheels_.stop = stop_;
-  wheels_.ready = proved_ && armed_ && !awaits_zero_ && trouble_ == DriveTrouble::kNone && obey();
+  wheels_.ready = proved_ && armed_ && !awaits_zero_ && trouble_ == DriveTrouble::kNone && is_enabled();
   return wheels_;
 }
 
@@ -83,10 +83,8 @@ void MotorPair::note_foreign(const CanFrame& frame) noexcept {
 void MotorPair::watch() noexcept {
   if (!armed_) return;
   if (!bus_watch_.is_well(bus_.health())) latch(DriveTrouble::kBusUnwell);
-  for (std::size_t k = 0; k < axes_.size(); ++k) {
-    MotorAxis& a = axes_[k];
-    if (is_late(a.heard)) lose_proof(DriveTrouble::kDriveSilent);
-    watch_motor(k);
+  for (MotorAxis& a : axes_) {
+    if (is_late(a.heard) || is_late(a.felt) || is_late(a.placed)) lose_proof(DriveTrouble::kDriveSilent);
     if (a.was_enabled && !a.obeys) lose_proof(DriveTrouble::kLeftOperation);
     a.was_enabled = a.obeys && !awaits_zero_;
   }
@@ -98,7 +96,7 @@ void MotorPair::latch(DriveTrouble trouble) noexcept {
   if (trouble_ == DriveTrouble::kNone) trouble_ = trouble;
 }
 
-/// Before the first command of zero it has no torque: then it is proved again, and no reset
+/// A motor went its own way. Before the first command of zero it has no torque: then it is proved again, and no reset
 /// is owed.
 void MotorPair::lose_proof(DriveTrouble trouble) noexcept {
   if (proving_ || (armed_ && !awaits_zero_)) return latch(trouble);
@@ -139,10 +137,14 @@ void MotorPair::begin_enabling() noexcept {
   for (std::size_t k = 0; k < axes_.size(); ++k) send_reset(k);
 }
 
+bool MotorPair::is_enabled() const noexcept {
+  return std::all_of(axes_.begin(), axes_.end(), [](const MotorAxis& a) { return a.obeys; });
+}
+
 MotorOrder MotorPair::order_now() const noexcept {
   if (!armed_ || awaits_zero_) return MotorOrder::kOff;
   if (trouble_ != DriveTrouble::kNone) return MotorOrder::kStop;
-  return obey() ? MotorOrder::kRun : MotorOrder::kHold;  // both wheels or none
+  return is_enabled() ? MotorOrder::kRun : MotorOrder::kHold;  // both wheels or none
 }
 
 void MotorPair::command(const WheelCommand& command) noexcept {
@@ -154,14 +156,8 @@ void MotorPair::command(const WheelCommand& command) noexcept {
   follow_stop(moves, {command.left_radps, command.right_radps});
   const MotorOrder order = order_now();
   const bool runs = moves && order == MotorOrder::kRun;
-  tell_both(order, runs ? command.left_radps : 0.0, runs ? command.right_radps : 0.0);
-}
-
-void MotorPair::tell_both(MotorOrder order, double left_radps, double right_radps) noexcept {
-  begin_cycle();
-  tell(0, order, left_radps);
-  tell(1, order, right_radps);
-  end_cycle();
+  tell(0, order, runs ? command.left_radps : 0.0);
+  tell(1, order, runs ? command.right_radps : 0.0);
 }
 
 void MotorPair::tell(std::size_t index, MotorOrder order, double speed_radps) noexcept {
@@ -180,7 +176,7 @@ void MotorPair::follow_stop(bool moves, const std::array<double, 2>& told_radps)
   if (!armed_ || (awaits_zero_ && trouble_ == DriveTrouble::kNone)) return;
   for (std::size_t k = 0; k < axes_.size(); ++k) {
     const WheelFeedback felt{axes_[k].speed_radps, axes_[k].felt, moves ? told_radps[k] : 0.0};
-    stop_ = std::max(stop_, ladders_[k].update(clock_.now(), !moves, trouble_ != DriveTrouble::kNone, felt));
+    stop_ = std::max(stop_, ladders_[k].update(clock_.now(), !moves, trouble_ != DriveTrouble::kNone, {felt, felt}));
   }
   if (stop_ != StopStage::kNone) latch(DriveTrouble::kStopUnconfirmed);
 }
@@ -194,7 +190,7 @@ void MotorPair::disarm() noexcept {
   if (armed_ && !awaits_zero_ && !(stands(0) && stands(1))) return command({clock_.now(), 0.0, 0.0});
   awaits_zero_ = true;
   proving_ = false;
-  tell_both(MotorOrder::kOff, 0.0, 0.0);
+  for (std::size_t k = 0; k < axes_.size(); ++k) tell(k, MotorOrder::kOff, 0.0);
   receive();
 }
 

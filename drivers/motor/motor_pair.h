@@ -62,9 +62,8 @@ struct PairSetup {
   bool proves_reports = false;  ///< the proof itself judges how often a motor says something
 };
 
-/// Two motors on one bus that take speeds and watch over the time between commands themselves: what CiA 402 drives,
-/// ODrives, VESCs, a Pioneer's board and a ROS base have in common. Commands are sent by the tick and by nothing else,
-/// so a dead loop is a silent one.
+/// Two motors on one CAN bus that take speeds and watch over the time between commands themselves: what ODrive and VESC
+/// have in common. Commands are sent by the tick and by nothing else, so a dead loop is a silent one.
 ///
 /// Stops: at any trouble both are told to stand still, again with every command, until reset() and a command of zero.
 /// Each wheel's feedback is held against the stop (StopLadder); where it does not show it, that motor is told to give
@@ -85,32 +84,21 @@ class MotorPair : public WiredDrive {
   [[nodiscard]] DriveTrouble trouble() const noexcept override { return trouble_; }
   [[nodiscard]] bool is_silent() const noexcept override { return is_late(axes_[0].heard) || is_late(axes_[1].heard); }
   void reset() noexcept override;
-  [[nodiscard]] bool is_enabled() const noexcept override { return obey(); }
+  [[nodiscard]] bool is_enabled() const noexcept override;
   [[nodiscard]] bool is_proved() const noexcept override { return proved_; }
   [[nodiscard]] std::optional<CanFrame> foreign_frame() const noexcept override { return foreign_; }
   /// Wheels that still turn are braked first.
   void disarm() noexcept override;
 
  protected:
-  /// Another controller commands at 20 Hz or more: in this time it is heard several times.
-  static constexpr Duration kListening = std::chrono::milliseconds(300);
-
   /// `bus` and `clock` outlive it. Throws StartupError where a stop has no ramp to be held against.
   MotorPair(CanBus& bus, Clock& clock, const PairSetup& setup);
 
   /// Takes in one frame; keeps its axis up to date.
   virtual void take(const ReceivedFrame& received) noexcept = 0;
   virtual void send_order(std::size_t axis, MotorOrder order, double speed_radps) noexcept = 0;
-  /// Frames of both motors, before their orders of a cycle and after them.
-  virtual void begin_cycle() noexcept {}
-  virtual void end_cycle() noexcept {}
   /// What makes the motor forget its fault.
   virtual void send_reset(std::size_t axis) noexcept = 0;
-  /// Looks for trouble that no message tells, once a cycle.
-  virtual void watch_motor(std::size_t axis) noexcept {
-    if (is_late(axes_[axis].felt) || is_late(axes_[axis].placed)) lose_proof(DriveTrouble::kDriveSilent);
-  }
-  [[nodiscard]] virtual bool shows_itself(std::size_t axis) const noexcept { return axes_[axis].shows_itself(); }
   /// Has motors show themselves that do not by themselves: once a cycle until they do; `anew`: when that begins.
   virtual void wake(bool /*anew*/) noexcept {}
   /// Begins the proof of one motor, which shows itself and stands by then.
@@ -120,17 +108,11 @@ class MotorPair : public WiredDrive {
   /// What the motor said in its proof, in a line. Start-up only, and so are these.
   [[nodiscard]] virtual std::string proof_line(std::size_t axis) const = 0;
   [[nodiscard]] virtual std::string proof_remedy(std::size_t axis) const = 0;
-  /// All that it said, a line a setting.
-  [[nodiscard]] virtual std::vector<std::string> proof_report(std::size_t axis) const { return {proof_line(axis)}; }
-  /// Why drives are not armed that another master commands.
-  [[nodiscard]] virtual StartupError refusal(const CanFrame& foreign) const;
   /// Why a motor does not show itself, and what to do.
   [[nodiscard]] virtual StartupError absence(std::size_t axis) const = 0;
 
   [[nodiscard]] const MotorAxis& axis(std::size_t index) const noexcept { return axes_[index]; }
-  [[nodiscard]] Clock& clock() const noexcept { return clock_; }
-  [[nodiscard]] bool is_armed() const noexcept { return armed_; }
-  [[nodiscard]] StopStage stop_stage() const noexcept { return stop_; }
+  [[nodiscard]] Clock& clock() noexcept { return clock_; }
   void send(const CanFrame& frame) noexcept;
   /// Lets a millisecond pass and takes in what came. Start-up only.
   void pass_time();
@@ -152,10 +134,6 @@ class MotorPair : public WiredDrive {
   void note_foreign(const CanFrame& frame) noexcept;
   /// Whether its torque is on and it follows speeds.
   void note_obeys(std::size_t index, bool obeys) noexcept { axes_[index].obeys = obeys; }
-  /// Trouble, until a reset.
-  void latch(DriveTrouble trouble) noexcept;
-  /// A motor went its own way.
-  void lose_proof(DriveTrouble trouble) noexcept;
 
  private:
   void receive() noexcept;
@@ -168,6 +146,8 @@ class MotorPair : public WiredDrive {
   [[nodiscard]] bool is_late(Time stamp) const noexcept {
     return stamp != kNever && age(stamp, clock_.now()) > setup_.silence_limit;
   }
+  void latch(DriveTrouble trouble) noexcept;
+  void lose_proof(DriveTrouble trouble) noexcept;
   void prove() noexcept;
   void begin_proofs() noexcept;
   void continue_proofs() noexcept;
@@ -176,8 +156,6 @@ class MotorPair : public WiredDrive {
   void follow_stop(bool moves, const std::array<double, 2>& told_radps) noexcept;
   [[nodiscard]] bool stands(std::size_t index) const noexcept;
   [[nodiscard]] MotorOrder order_now() const noexcept;
-  [[nodiscard]] bool obey() const noexcept { return axes_[0].obeys && axes_[1].obeys; }
-  void tell_both(MotorOrder order, double left_radps, double right_radps) noexcept;
   void tell(std::size_t index, MotorOrder order, double speed_radps) noexcept;
 
   CanBus& bus_;

@@ -6,6 +6,9 @@
 namespace jaywalk {
 namespace {
 
+/// Another controller commands at 20 Hz or more: in this time it is heard several times.
+constexpr Duration kListening = std::chrono::milliseconds(300);
+
 std::string in_words(const CanFrame& frame) {
   std::array<char, 16> text{};
   std::snprintf(text.data(), text.size(), frame.extended ? "%08Xh" : "%03Xh", static_cast<unsigned>(frame.id));
@@ -40,24 +43,21 @@ void MotorPair::listen() {
 }
 
 std::vector<std::string> MotorPair::judge_proofs() const {
-  if (foreign_) throw refusal(*foreign_);
+  if (foreign_) {
+    throw StartupError("CAN: another program commands the drives: frame " + in_words(*foreign_),
+                       "end that program, or take it off this bus; a frame of a drive's own came too often: give each "
+                       "a number of its own, and an ODrive can.heartbeat_msg_rate_ms of 10 or more");
+  }
   std::vector<std::string> report;
   for (std::size_t k = 0; k < axes_.size(); ++k) {
     if (results_[k] == ProofResult::kAbsent) throw absence(k);
     if (results_[k] == ProofResult::kUnderWay) continue;
-    if (!accepts(results_[k])) throw StartupError(proof_line(k), proof_remedy(k));
-    for (const std::string& line : proof_report(k)) report.push_back(line);
+    report.push_back(proof_line(k));
+    if (!accepts(results_[k])) throw StartupError(report.back(), proof_remedy(k));
   }
   if (trouble_ != DriveTrouble::kNone)
     throw StartupError("CAN: " + std::string(name(trouble_)), "see that the bus is up and the drives are powered");
   return report;
-}
-
-StartupError MotorPair::refusal(const CanFrame& foreign) const {
-  return {
-      "CAN: another program commands the drives: frame " + in_words(foreign),
-      "end that program, or take it off this bus; a frame of a drive's own came too often: give each a number of its "
-      "own, and an ODrive can.heartbeat_msg_rate_ms of 10 or more"};
 }
 
 bool MotorPair::accepts(ProofResult result) const noexcept {
@@ -104,7 +104,7 @@ void MotorPair::continue_proofs() noexcept {
   wake(false);
   const bool late = clock_.now() - proofs_began_ > setup_.answer_limit;
   for (under_proof_ = 0; under_proof_ < axes_.size(); ++under_proof_)
-    if (!shows_itself(under_proof_)) return late ? finish_proof(ProofResult::kAbsent) : void();
+    if (!axes_[under_proof_].shows_itself()) return late ? finish_proof(ProofResult::kAbsent) : void();
   both_shown_ = true;
   under_proof_ = 0;
   begin_proof(0);

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "drivers/can/socketcan.h"
+#include "drivers/can/can_interface.h"
 #include "drivers/wired_drive.h"
 #include "firmware/backends.h"
 #include "firmware/recording/map_files.h"

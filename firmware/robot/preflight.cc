@@ -10,7 +10,7 @@
 #include <fstream>
 #include <thread>
 
-#include "drivers/can/socketcan.h"
+#include "drivers/can/can_interface.h"
 #include "drivers/panel/joystick.h"
 #include "firmware/backends.h"
 #include "firmware/robot/control_socket.h"

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "drivers/can/byte_bus.h"
+#include "drivers/can/can_interface.h"
 #include "drivers/can/socketcan.h"
 #include "drivers/canopen/cia402.h"
 #include "drivers/laser/scanner_connection.h"

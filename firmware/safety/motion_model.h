@@ -1,75 +1,14 @@
 #pragma once
-#include <array>
 #include <cstddef>
 #include <cstdint>
 
+#include "firmware/safety/felt_motion.h"
 #include "firmware/safety/reasons.h"
 #include "firmware/safety/scan_pair.h"
 #include "firmware/safety/wheel_proof.h"
 #include "hal/types/robot_model.h"
-#include "hal/types/wheels.h"
 
 namespace jaywalk {
-
-/// Compares each wheel's feedback with what it was commanded, through a model of the drive (SAFETY 18 and 33).
-///
-/// A sound drive has obeyed a command after at most DriveTimes::obeyed_within_s(), and changes its speed by at least
-/// limits.brake_mps2 until then. So its speed lies between a slowest and a fastest that follow the least and the
-/// greatest command of that time, the slow way with that ramp. What it is outside by more than kOff_mps and kOffShare
-/// of the bound is summed up (Page 1954, CUSUM); kFault_m is disobedience: reversed, stuck, or turning without a
-/// command. Speeds and ways are the rim's. A wheel that stands though commanded 0.2 m/s is told within 0.5 s.
-///
-/// A wheel's angle is held against its speed in the same way, up to kApart_m and what the robot at its
-/// fastest drives while a report may be late: counters that stand while speeds go on, and speeds that stand while
-/// counters do, are disobedience as well. Every report counts, however long after the one before: times that are told
-/// wrong for one of them are told wrong the other way for the next, so that their sum is not. Thread: the loop's.
-class FeltMotion {
- public:
-  static constexpr double kOff_mps = 0.02;
-  static constexpr double kOffShare = 0.15;
-  static constexpr double kFault_m = 0.03;  ///< steps of coarse encoders cancel out long before
-  static constexpr double kApart_m = 0.03;
-  static constexpr double kApartShare = 0.06;  ///< of the way: both are one encoder's, speeds may be filtered
-
-  FeltMotion(const DriveModel& drive, const MotionLimits& limits);
-
-  /// Once a tick: `command` is what the drive was sent in the tick before, `wheels` the newest reading. A drive in
-  /// trouble brakes by itself: from it zero is obedience as well.
-  [[nodiscard]] bool disobeys(const WheelCommand& command, const WheelState& wheels, Time now) noexcept;
-
- private:
-  /// The commands of the last 0.64 s at 200 Hz; at more the oldest is forgotten early.
-  static constexpr std::size_t kMostCommands = 128;
-  struct Span {
-    double least = 0.0, greatest = 0.0;
-  };
-  struct Wheel {
-    Span may_be;                           ///< m/s
-    double off_m = 0.0;                    ///< that it went too far or not far enough, of late
-    double ahead_m = 0.0, behind_m = 0.0;  ///< that its angle turned more or less than its speed says, likewise
-  };
-  struct Sent {
-    Time from = kNever;
-    double left_mps = 0.0, right_mps = 0.0;
-  };
-
-  void keep(const Sent& sent) noexcept;
-  [[nodiscard]] Span commanded(double Sent::*wheel, Time now, bool zero_too) const noexcept;
-  [[nodiscard]] bool is_off(Wheel& wheel, const Span& commanded, double felt_mps, double step_s) const noexcept;
-  void compare(Wheel& wheel, double rolled_m, double felt_mps, double step_s) const noexcept;
-  [[nodiscard]] bool contradicts_itself(const WheelState& wheels) noexcept;
-
-  double wheel_radius_m_, ramp_mps2_;
-  Duration obeys_within_, oldest_;
-  double apart_m_;
-  WheelState counted_;
-  std::array<Sent, kMostCommands> sent_{};
-  std::size_t newest_ = 0;
-  Wheel left_, right_;
-  Time judged_ = kNever;
-  Time zero_until_ = kNever;  ///< zero is obedience as well
-};
-
 /// One model of seen, felt and commanded motion (SAFETY 18 and 23): how far the wheels go by what the scans show,
 /// against what the robot file says, and how the scanner is turned in its mount, are states with bounds.
 ///

@@ -13,6 +13,7 @@
 #include "firmware/safety/motion_model.h"
 #include "firmware/safety/reasons.h"
 #include "firmware/safety/stop_zone.h"
+#include "firmware/safety/unseen_walls.h"
 #include "firmware/safety/wheel_proof.h"
 #include "hal/types/laser_scan.h"
 #include "hal/types/operator_input.h"

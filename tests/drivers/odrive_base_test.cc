@@ -1,7 +1,8 @@
+#include "drivers/motor/odrive_base.h"
+
 #include <chrono>
 #include <string>
 
-#include "drivers/motor/odrive.h"
 #include "tests/drivers/drive_bench.h"
 
 using namespace jaywalk;

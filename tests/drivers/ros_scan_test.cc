@@ -1,7 +1,8 @@
+#include "drivers/ros/ros_scan.h"
+
 #include <limits>
 
 #include "drivers/laser/scanner_setup.h"
-#include "drivers/ros/ros_base.h"
 #include "tests/drivers/hand_clock.h"
 #include "tests/drivers/random_bytes.h"
 #include "tests/drivers/ring_path.h"

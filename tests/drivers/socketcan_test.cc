@@ -6,6 +6,7 @@
 #include <array>
 #include <string>
 
+#include "drivers/can/can_interface.h"
 #include "hal/types/errors.h"
 #include "tests/drivers/hand_clock.h"
 #include "tests/drivers/random_bytes.h"

@@ -6,12 +6,12 @@
 #include <cmath>
 #include <functional>
 
-#include "drivers/can/socketcan.h"
+#include "drivers/can/can_interface.h"
 #include "firmware/robot/control_socket.h"
 #include "firmware/robot/realtime.h"
 #include "hal/types/errors.h"
 #include "hil/emulators/byte_server.h"
-#include "hil/emulators/network_scanners.h"
+#include "hil/emulators/sick_server.h"
 #include "hil/far_end/simulated_robot.h"
 #include "tests/support/catch.h"
 

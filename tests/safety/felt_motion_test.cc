@@ -1,10 +1,11 @@
+#include "firmware/safety/felt_motion.h"
+
 #include <algorithm>
 #include <cmath>
 #include <deque>
 #include <functional>
 #include <random>
 
-#include "firmware/safety/motion_model.h"
 #include "tests/support/catch.h"
 
 using namespace jaywalk;

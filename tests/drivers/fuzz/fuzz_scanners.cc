@@ -10,7 +10,7 @@
 #include "drivers/laser/rplidar.h"
 #include "drivers/laser/scip.h"
 #include "drivers/laser/sick.h"
-#include "drivers/ros/ros_base.h"
+#include "drivers/ros/ros_scan.h"
 
 namespace jaywalk::tests {
 
