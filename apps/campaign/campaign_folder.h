@@ -27,7 +27,7 @@ struct ReportedCampaign {
   std::vector<ReportedExperiment> experiments;
 };
 
-/// Of the same campaign, scenarios and program always the same text. `program`: jaywalk's file.
+/// Text of campaign.json. The same campaign, scenarios and program give the same text. `program`: jaywalk's file.
 [[nodiscard]] std::string plan_text(const Campaign& campaign, const Plan& plan, const std::filesystem::path& program);
 
 /// Throws StartupError, naming `file`, for what is no such text.

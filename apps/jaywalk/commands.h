@@ -14,14 +14,14 @@ namespace jaywalk {
 
 /// Measures solver and planner, and what a user would pick instead, on the same maps in one run.
 void add_bench(CLI::App& app, int& exit_code);
-/// From a guided drive or a recording, the keys that put wheels and mount right.
+/// Estimates wheel radii, track width and mount from a guided drive or a recording; prints the keys to set.
 void add_calibrate(CLI::App& app, int& exit_code);
 /// Runs what of a campaign's share is not finished; 1 when it was stopped, or runs of it crashed or were refused.
 void add_campaign(CLI::App& app, int& exit_code);
 /// Turns each wheel a little and checks motors, encoders, sides, counts and the scanner against what the scans show;
 /// leaves ROBOT.commissioned.json. Where it has to be broken off, what was found before is withdrawn.
 void add_commission(CLI::App& app, int& exit_code);
-/// What may stand in the settings files, from the tables that their parsers use.
+/// Lists the keys of the settings files, from the tables that their parsers use.
 void add_config(CLI::App& app, int& exit_code);
 /// A run's recording as MCAP. The controller lives through it again, since tracks, plans and map are not in it.
 void add_export(CLI::App& app, int& exit_code);

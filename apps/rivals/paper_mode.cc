@@ -79,8 +79,8 @@ MapCells cells_of(sim::Raster raster) {
   return {{raster.width, raster.height, std::move(raster.solid)}, raster.map_from_raster, raster.cell_m};
 }
 
-/// Lines and discs as cells: those whose middle is within half a cell. A line leaves no gap that way which a step to a
-/// cell's side could pass.
+/// Rasters a map's lines and discs: a cell is occupied when its middle is within half a cell of one. So a line leaves
+/// no gap for a step to a neighbour on a cell's side.
 MapCells drawn_cells(const std::filesystem::path& file, sim::WallMap map, double cell_m) {
   const sim::Walls walls(std::move(map));
   const sim::Box box = walls.bounds();

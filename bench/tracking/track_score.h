@@ -37,8 +37,8 @@ class Innovations {
   double sum_ = 0.0;
 };
 
-/// Of a simulation's recording, lived through again without plans: seeing does not depend on them. None in mode
-/// paper, whose movers come from outside. Throws StartupError.
+/// Innovations of the tracker over a simulation's recording, which is lived through again without plans: perception
+/// does not depend on them. Empty for a recording of mode paper, which is given its movers. Throws StartupError.
 [[nodiscard]] Innovations innovations_of(const std::filesystem::path& recording);
 
 /// Somebody who is really there.

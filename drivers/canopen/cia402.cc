@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::uint32_t kNmtId = 0x000, kSyncId = 0x080, kEmergencyBase = 0x080, kHeartbeatBase = 0x700;
 
-/// The node of a frame whose identifier is `base` + node; 0 where it is none of them.
+/// Returns the node number, 1 to 127, of a data frame with identifier `base` + node; 0 for any other frame.
 std::uint8_t node_of(const CanFrame& frame, std::uint32_t base) noexcept {
   if (frame.extended || frame.remote || frame.id <= base || frame.id > base + 127) return 0;
   return static_cast<std::uint8_t>(frame.id - base);

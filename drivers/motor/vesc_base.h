@@ -11,7 +11,7 @@ namespace jaywalk::vesc {
 
 struct BaseSetup {
   std::array<CanAxis, 2> axes;  ///< left, right: electrical turns a radian of the wheel
-  std::uint8_t own = 254;       ///< whom the controllers answer
+  std::uint8_t own = 254;       ///< CAN identifier of this program, to which the controllers answer
   /// Shortest and longest timeout that a controller may be set to: it must outlast two commands, and a controller looks
   /// at its timeout every 10 ms.
   Duration timeout_least = std::chrono::milliseconds(40), timeout_most = std::chrono::milliseconds(90);

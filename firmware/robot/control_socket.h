@@ -47,8 +47,8 @@ struct ControlReply {
   std::function<std::string()> job;
 };
 
-/// Serves any number of clients in rounds; nothing in a round waits. Work per round is bounded, so that a flood costs
-/// its sender time and nobody else: kMostAccepted connections, kMostAnswers answers. When all places or descriptors are
+/// Serves any number of clients in rounds; nothing in a round waits. A round accepts kMostAccepted connections and
+/// gives kMostAnswers answers at most, so a client that floods it slows only itself. When all places or descriptors are
 /// taken, the process with most of them loses its oldest client.
 ///
 /// A stop (stop_in()) is answered as soon as it is read, before all else, and is not counted: in the round that is
@@ -67,7 +67,7 @@ class ControlClients {
 
   /// Waits until a client of `listener` wants something, `longest` at most; less where an answer is still due.
   void wait(int listener, Duration longest);
-  /// Accepts, reads, answers, and drops those whose time is up.
+  /// Accepts clients, reads and answers their orders, and drops clients that stayed silent too long.
   void serve(int listener, Time now);
   [[nodiscard]] std::size_t connected() const noexcept { return clients_.size(); }
 

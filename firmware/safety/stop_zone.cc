@@ -168,7 +168,7 @@ StopZoneConfig stop_zone_for(const RobotModel& model, Duration tick) noexcept {
 }
 
 namespace {
-/// Fastest speed ahead (m/s) whose stop takes no more than `stop_m`, at the model's turn rate.
+/// Fastest forward speed, m/s, from which the robot stops within `stop_m` metres while it turns at the model's rate.
 double speed_for_stop(const RobotModel& model, Duration tick, double stop_m) {
   const double bt = model.limits.brake_mps2 * worst_reaction_s(model, tick);
   const double rim_mps = std::sqrt(bt * bt + 2.0 * model.limits.brake_mps2 * std::max(stop_m, 0.0)) - bt;

@@ -14,8 +14,8 @@ constexpr std::int32_t kWallNodes = 24;  // about a wall's point: a body's half 
 constexpr std::int32_t kMost = 60;       // nodes that a body reaches
 
 constexpr std::int32_t kWallColumns = 2 * kWallNodes / PoseLook::kPerCell + 1;
-/// Distance from a wall's point, by rows of nodes off it and node: every fourth of a row side by side, as PoseLook has
-/// them.
+/// Table of distances from a wall's point, in units of room, by row and node off it. Every fourth node of a row lies
+/// side by side, as in PoseLook.
 struct AwayFromWall {
   AwayFromWall() {
     for (std::int32_t dj = 0; dj <= kWallNodes; ++dj) {

@@ -47,7 +47,7 @@ struct StallState {
   float for_s = 0.0F;
   float least_to_go_s = 0.0F;
   bool is_alone = false;   ///< no pedestrian is about
-  float wound_rad = 0.0F;  ///< turned since then, to the left
+  float wound_rad = 0.0F;  ///< net turn since then, left positive
 
   [[nodiscard]] JAYWALK_CELL bool gets_on(float to_go_s) const {
     constexpr float kFallsByS = 0.5F;

@@ -16,7 +16,7 @@ struct Span {
   Time first, last;
 };
 
-/// Of the largest group of stamps without such a gap; of equal ones the earliest.
+/// First and last stamp of the largest group without such a gap; the earliest of groups of equal size.
 Span largest_group(std::span<const Time> stamps) {
   std::vector<Time> sorted(stamps.begin(), stamps.end());
   std::sort(sorted.begin(), sorted.end());

@@ -1,5 +1,5 @@
 #pragma once
-// What every reader of recordings checks before it believes a scan, a pose or a stamp.
+// Checks of scans, poses and stamps that every reader of recordings makes.
 #include <chrono>
 #include <cstddef>
 #include <limits>

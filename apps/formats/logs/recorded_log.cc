@@ -14,7 +14,7 @@ namespace {
 /// x / sin(x); the series where the quotient loses digits.
 double arc_over_chord(double x) { return x * x < 1e-8 ? 1.0 + x * x / 6.0 : x / sin(x); }
 
-/// Where the drive stands after its readings so far, and what they read.
+/// Pose of the drive after the readings so far, and the encoders' angles then.
 struct Driven {
   Pose2 pose;
   WheelState wheels;
@@ -40,7 +40,7 @@ constexpr double kMostSlipM = 0.03, kMostBentRad = 0.26;
 constexpr Duration kOften = std::chrono::milliseconds(100), kLongestFilled = std::chrono::milliseconds(1500);
 constexpr Duration kSparse = std::chrono::milliseconds(150);  // in less a robot does not turn, drive and turn back
 
-/// What an arc to `to` would miss it by, sideways.
+/// Lateral error, m, at which an arc from the drive's pose ends beside `to`.
 double arc_misses_by(const Driven& driven, const Pose2& to) {
   const double turn = wrap_angle(to.heading - driven.pose.heading);
   return std::fabs(cross(direction(driven.pose.heading + turn / 2.0), to.position() - driven.pose.position()));

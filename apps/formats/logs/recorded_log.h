@@ -1,6 +1,6 @@
 #pragma once
 // A recording of laser and odometry in memory, and the text formats that it is read from.
-// From recorded poses back to the wheel encoders that would have led there.
+// Wheel encoders are computed from recorded poses, as they would have led there.
 #include <cstdint>
 #include <filesystem>
 #include <optional>

@@ -189,7 +189,7 @@ void draw_scale_bar(Canvas& canvas, const MapFrame& to_sheet) {
   canvas.write(left + Vec2{-12.0, 6.0}, metres(length_m) + " m", {18.0, ink::kText, Align::kRight});
 }
 
-/// Facts and legend in a column whose upper left corner is given.
+/// Draws the facts and the legend in a column from its upper left corner, in units of the canvas.
 void draw_panel(Canvas& canvas, const PictureScene& scene, Vec2 upper_left, double width) {
   Vec2 at = upper_left + Vec2{0.0, kFactSize};
   at.y = draw_facts(canvas, scene, at, width);
