@@ -75,8 +75,8 @@ inline constexpr float kMostStoodS =
 inline constexpr float kMostAloneS =
     12.0F;  ///< with no pedestrian about; BARN, seed 706: 0.332 to 0.358 (decision motion-prices)
 /// Price of each radian of net turn beyond half a turn since the robot last made progress: it turns back rather than
-/// right round. Without it 7 of 176 encounters (WORLDS encounters, seed 860, rooms) had a loop, with it none; with it
-/// and without kReversal 1, and 5 of 32 runs among 16 movers, not 2 (decision motion-prices).
+/// right round. Without it 7 of 176 encounters (WORLDS encounters, seed 860: rooms, corridors) had a loop, with it
+/// none; with it and without kReversal 1, and 5 of 32 runs among 16 movers, not 2 (decision motion-prices).
 inline constexpr float kWound = 2.0F;
 inline constexpr float kArrivedEarly = 0.5F;  ///< taken back at the goal
 /// So far ahead and back the guide is asked for what facing away costs: 2 s at most. At 3 s 17 of 20 runs (decision
