@@ -44,13 +44,14 @@ struct PassedOn {
   bool kept = false;  ///< for readers that come later
   [[nodiscard]] const char* topic() const { return exchange::kRosTopics[number].name; }
 };
-const std::array<PassedOn, 7> kPassedOn{{{exchange::kScan, &sensor_msgs_msg_dds__LaserScan__desc},
+const std::array<PassedOn, 8> kPassedOn{{{exchange::kScan, &sensor_msgs_msg_dds__LaserScan__desc},
                                          {exchange::kOdom, &nav_msgs_msg_dds__Odometry__desc},
                                          {exchange::kTf, &tf2_msgs_msg_dds__TFMessage__desc},
                                          {exchange::kTfStatic, &tf2_msgs_msg_dds__TFMessage__desc, true},
                                          {exchange::kMap, &nav_msgs_msg_dds__OccupancyGrid__desc, true},
                                          {exchange::kPlan, &nav_msgs_msg_dds__Path__desc},
-                                         {exchange::kTracks, &visualization_msgs_msg_dds__MarkerArray__desc}}};
+                                         {exchange::kTracks, &visualization_msgs_msg_dds__MarkerArray__desc},
+                                         {exchange::kClock, &rosgraph_msgs_msg_dds__Clock__desc}}};
 /// How a topic is published; null where it is not. "/scan_rear", the topic of a named scanner, is published as "/scan".
 const PassedOn* passed_on(const std::string& topic) {
   for (const PassedOn& one : kPassedOn)

@@ -54,16 +54,21 @@ double range_of(const LaserScan& scan, std::size_t beam) {
   return scan.found_nothing(beam) ? std::numeric_limits<double>::infinity() : std::numeric_limits<double>::quiet_NaN();
 }
 
-void marker(CdrWriter& out, const Track& track, Time time) {
-  constexpr int kCylinder = 3, kAdd = 0;
+/// A cylinder where there are no `points`, else a line along them.
+void marker(CdrWriter& out, const Track& track, Time time, const char* space, std::span<const Vec2> points) {
+  constexpr int kCylinder = 3, kLineStrip = 4, kAdd = 0;
+  constexpr double kLineM = 0.05;
+  const bool is_line = !points.empty();
   header(out, time, "map");
-  out.text("tracks").i32(track.id).i32(kCylinder).i32(kAdd);
-  pose(out, {track.position_in_map.x, track.position_in_map.y,
-             std::atan2(track.velocity_in_map.y, track.velocity_in_map.x)});
-  vector(out, 2.0 * track.radius_m, 2.0 * track.radius_m, 1.0);
+  out.text(space).i32(track.id).i32(is_line ? kLineStrip : kCylinder).i32(kAdd);
+  const Vec2 at = is_line ? Vec2{} : track.position_in_map;  // a line's points are in the map as they are
+  pose(out, {at.x, at.y, is_line ? 0.0 : std::atan2(track.velocity_in_map.y, track.velocity_in_map.x)});
+  vector(out, is_line ? kLineM : 2.0 * track.radius_m, 2.0 * track.radius_m, 1.0);
   out.f32(track.moving ? 0.8 : 0.4).f32(track.moving ? 0.3 : 0.4).f32(track.moving ? 0.2 : 0.5).f32(0.8);
-  out.i32(0).u32(300'000'000).u8(0);             // it fades when no scan renews it
-  out.u32(0).u32(0).text("");                    // no points, colours, texture
+  out.i32(0).u32(300'000'000).u8(0);  // it fades when no scan renews it
+  out.u32(points.size());
+  for (const Vec2 p : points) vector(out, p.x, p.y, 0.0);
+  out.u32(0).text("");                           // no colours, texture
   header(out, Time{}, "");                       // texture: none
   out.text("").u32(0).u32(0).text("").text("");  // nor coordinates on it, text, mesh
   out.text("").u32(0).u8(0);
@@ -120,6 +125,7 @@ const std::map<std::string, std::string>& fields() {
        "sensor_msgs/CompressedImage texture\nvisualization_msgs/UVCoordinate[] uv_coordinates\nstring text\n"
        "string mesh_resource\nvisualization_msgs/MeshFile mesh_file\nbool mesh_use_embedded_materials\n"},
       {"visualization_msgs/MarkerArray", "visualization_msgs/Marker[] markers\n"},
+      {"rosgraph_msgs/Clock", "builtin_interfaces/Time clock\n"},
       {"diagnostic_msgs/KeyValue", "string key\nstring value\n"},
       {"diagnostic_msgs/DiagnosticStatus",
        "byte OK=0\nbyte WARN=1\nbyte ERROR=2\nbyte STALE=3\nbyte level\nstring name\nstring message\n"
@@ -242,9 +248,21 @@ std::string path(const PlannedPath& path, Time time) {
 }
 
 std::string tracks(std::span<const Track> tracks, Time stamp) {
+  constexpr double kAheadS = 2.5;
   CdrWriter out;
-  out.u32(tracks.size());
-  for (const Track& track : tracks) marker(out, track, stamp);
+  const auto moving = std::count_if(tracks.begin(), tracks.end(), [](const Track& t) { return t.moving; });
+  out.u32(tracks.size() + static_cast<std::size_t>(moving));
+  for (const Track& track : tracks) {
+    marker(out, track, stamp, "tracks", {});
+    const std::array line{track.position_in_map, track.position_in_map + track.velocity_in_map * kAheadS};
+    if (track.moving) marker(out, track, stamp, "expected", line);
+  }
+  return out.message();
+}
+
+std::string clock(Time now) {
+  CdrWriter out;
+  stamp(out, now);
   return out.message();
 }
 

@@ -36,8 +36,11 @@ struct RobotFrames {
 [[nodiscard]] std::string goal_pose(const OperatorInput& input, Time stamp);
 /// nav_msgs/Path.
 [[nodiscard]] std::string path(const PlannedPath& path, Time stamp);
-/// visualization_msgs/MarkerArray: a cylinder a track, red where it moves.
+/// visualization_msgs/MarkerArray: a cylinder a track, red where it moves, and a line ("expected") to where it will be
+/// in 2.5 s if it goes straight on.
 [[nodiscard]] std::string tracks(std::span<const Track> tracks, Time stamp);
+/// rosgraph_msgs/Clock.
+[[nodiscard]] std::string clock(Time now);
 /// diagnostic_msgs/DiagnosticArray: reasons, plan, gap.
 [[nodiscard]] std::string diagnostics(const TickRecord& tick, Time stamp);
 /// nav_msgs/OccupancyGrid of what is known: 100 occupied, 0 seen free, -1 unknown.

@@ -49,6 +49,7 @@ void RosTopics::add(const TickRecord& t, std::span<const Track> tracks, const Pl
   const Time now = wall(t.now);
   const RobotFrames frames = frames_at(t, model);
   if (wants(kTfStatic) && !std::exchange(told_static_, true)) push_(kTfStatic, now, static_transforms(model, now));
+  if (wants(kClock)) push_(kClock, now, clock(now));
   if (wants(kTf)) push_(kTf, now, transforms(frames, now));
   if (wants(kOdom)) push_(kOdom, now, odometry(frames, t.wheels, model.drive, now));
   if (wants(kCmdVel)) push_(kCmdVel, now, command(t));

@@ -36,10 +36,11 @@ enum RosTopicNumber : std::uint8_t {
   kTracks,
   kDiagnostics,
   kCmdVel,
-  kTfStatic
+  kTfStatic,
+  kClock
 };
 
-inline constexpr std::array<RosTopic, 11> kRosTopics{{{"/scan", "sensor_msgs/msg/LaserScan"},
+inline constexpr std::array<RosTopic, 12> kRosTopics{{{"/scan", "sensor_msgs/msg/LaserScan"},
                                                       {"/points", "sensor_msgs/msg/PointCloud2"},
                                                       {"/odom", "nav_msgs/msg/Odometry"},
                                                       {"/tf", "tf2_msgs/msg/TFMessage"},
@@ -49,7 +50,8 @@ inline constexpr std::array<RosTopic, 11> kRosTopics{{{"/scan", "sensor_msgs/msg
                                                       {"/tracks", "visualization_msgs/msg/MarkerArray"},
                                                       {"/diagnostics", "diagnostic_msgs/msg/DiagnosticArray"},
                                                       {"/cmd_vel", "geometry_msgs/msg/Twist"},
-                                                      {"/tf_static", "tf2_msgs/msg/TFMessage", true}}};
+                                                      {"/tf_static", "tf2_msgs/msg/TFMessage", true},
+                                                      {"/clock", "rosgraph_msgs/msg/Clock"}}};
 inline constexpr std::uint32_t kAllTopics = (1U << kRosTopics.size()) - 1U;
 /// From this number on come the scans of a robot's other scanners, which kAllTopics does not ask for.
 inline constexpr std::size_t kOtherScans = kRosTopics.size();

@@ -4,13 +4,17 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
+#include "apps/formats/wire_reader.h"
 #include "apps/view/view_orders.h"
 
 namespace jaywalk::view {
 namespace {
 using Json = nlohmann::json;
 
-constexpr char kMessageData = 1;  ///< opcode of binary frames, either way
+// Opcodes of binary frames.
+constexpr char kMessageData = 1;  ///< either way
+constexpr char kServiceCall = 2, kServiceAnswer = 3;
+constexpr std::size_t kCallHead = 13;  ///< opcode, service, call, letters of its encoding
 constexpr std::size_t kMostNumbers = 64;
 constexpr std::size_t kMostShown = 40;  ///< letters of what a client said
 constexpr int kWarning = 1;
@@ -48,6 +52,34 @@ Json list_in(const Json& json, const char* key) {
   return found != json.end() && found->is_array() ? *found : Json::array();
 }
 
+Json message_type(const char* name, const char* schema) {
+  return {{"encoding", "cdr"}, {"schemaName", name}, {"schemaEncoding", "ros2msg"}, {"schema", schema}};
+}
+
+Json stop_service() {
+  return {{"id", 0},
+          {"name", "/stop"},
+          {"type", "std_srvs/srv/Trigger"},
+          {"request", message_type("std_srvs/srv/Trigger_Request", "")},
+          {"response", message_type("std_srvs/srv/Trigger_Response", "bool success\nstring message\n")}};
+}
+
+/// Of a payload that has so many bytes; little-endian, as all our machines are.
+std::uint32_t u32_at(std::string_view payload, std::size_t at) {
+  std::uint32_t number = 0;
+  std::memcpy(&number, payload.data() + at, sizeof number);
+  return number;
+}
+
+/// The only service, 0, is /stop, whatever its request holds.
+FoxgloveSession::Outcome called(std::string_view payload) {
+  if (payload.size() < kCallHead || u32_at(payload, 1) != 0) return {.order = "", .status = warning("no such service")};
+  const std::size_t letters = u32_at(payload, kCallHead - 4);
+  const std::string_view encoding = payload.substr(kCallHead).substr(0, letters);
+  if (encoding != "cdr" && encoding != "json") return {.order = "", .status = warning("a call is in cdr or json")};
+  return {.order = R"({"stop":true})", .status = "", .call = std::string(payload.substr(0, kCallHead + letters))};
+}
+
 }  // namespace
 
 std::string foxglove_subprotocol(std::string_view offered) {
@@ -75,15 +107,26 @@ std::vector<std::string> foxglove_greeting(std::span<const FoxgloveChannel> chan
   }
   return {dumped({{"op", "serverInfo"},
                   {"name", "jaywalk"},
-                  {"capabilities", {"clientPublish"}},
+                  {"capabilities", {"clientPublish", "services"}},
                   {"supportedEncodings", {"cdr", "json"}},
                   {"metadata", Json::object()}}),
-          dumped({{"op", "advertise"}, {"channels", listed}})};
+          dumped({{"op", "advertise"}, {"channels", listed}}),
+          dumped({{"op", "advertiseServices"}, {"services", {stop_service()}}})};
 }
 
 std::string foxglove_answer(std::string_view said) {
-  const std::string text = text_in(Json::parse(said), "text");
+  const std::string text = text_in(Json::parse(said, nullptr, false), "text");
   return status(text, text.starts_with("refused") ? kWarning : 0);
+}
+
+std::string foxglove_service_answer(std::string_view call, std::string_view said) {
+  const std::string text = text_in(Json::parse(said, nullptr, false), "text");
+  const bool stops = !text.starts_with("refused");
+  exchange::CdrWriter cdr;
+  cdr.u8(stops ? 1 : 0).text(text);
+  std::string frame(call);
+  frame[0] = kServiceAnswer;
+  return frame + (call.ends_with("json") ? dumped({{"success", stops}, {"message", text}}) : cdr.message());
 }
 
 FoxgloveSession::Outcome FoxgloveSession::take_text(std::string_view text) {
@@ -122,11 +165,10 @@ FoxgloveSession::Outcome FoxgloveSession::take_text(std::string_view text) {
 
 FoxgloveSession::Outcome FoxgloveSession::take_binary(std::string_view payload) {
   constexpr std::size_t kHead = 5;
+  if (payload.starts_with(kServiceCall)) return called(payload);
   if (payload.size() < kHead || payload[0] != kMessageData)
     return {.order = "", .status = warning("no client message")};
-  std::uint32_t id = 0;
-  std::memcpy(&id, payload.data() + 1, sizeof id);  // little-endian, as all our machines are
-  const auto found = published_.find(id);
+  const auto found = published_.find(u32_at(payload, 1));
   if (found == published_.end())
     return {.order = "", .status = warning("a message of a channel that is not advertised")};
   const auto& [topic, encoding] = found->second;

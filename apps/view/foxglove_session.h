@@ -1,6 +1,6 @@
 #pragma once
 // The server's end of Foxglove's WebSocket protocol, version 1 (github.com/foxglove/ws-protocol, docs/spec.md):
-// channels are advertised, clients subscribe to them and may publish a goal or the robot's place.
+// channels are advertised, clients subscribe to them, may publish a goal or the robot's place and call /stop.
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -22,7 +22,8 @@ struct FoxgloveChannel {
 /// The first of a handshake's Sec-WebSocket-Protocol that is spoken here; empty where none is.
 [[nodiscard]] std::string foxglove_subprotocol(std::string_view offered);
 
-/// The texts that a newcomer is sent: serverInfo, and an advertisement of all channels, numbered from 0 in this order.
+/// The texts that a newcomer is sent: serverInfo, an advertisement of all channels, numbered from 0 in this order, and
+/// one of the service /stop (std_srvs/srv/Trigger).
 [[nodiscard]] std::vector<std::string> foxglove_greeting(std::span<const FoxgloveChannel> channels);
 
 /// One client's subscriptions and what it publishes. Thread: the server's.
@@ -35,6 +36,7 @@ class FoxgloveSession {
     std::string order;                      ///< {"goal":[x,y,heading]}, {"here":...}
     std::string status;                     ///< JSON to send back
     std::vector<std::size_t> subscribed{};  ///< channels that begin now
+    std::string call{};                     ///< a service's call: what stands before its answer
   };
   [[nodiscard]] Outcome take_text(std::string_view text);
   [[nodiscard]] Outcome take_binary(std::string_view payload);
@@ -55,6 +57,9 @@ class FoxgloveSession {
 
 /// The status that tells a client what the live page's answer to its order says, {"kind":"said","text":...}.
 [[nodiscard]] std::string foxglove_answer(std::string_view said);
+
+/// The binary frame that answers a service's call (Outcome::call) by what the live page's answer says.
+[[nodiscard]] std::string foxglove_service_answer(std::string_view call, std::string_view said);
 
 /// What stands before a message in a binary frame of Message Data.
 [[nodiscard]] std::string foxglove_head(std::uint32_t subscription, Time stamp);

@@ -207,7 +207,7 @@ SimView::SimView(const view::ViewAddress& where, const ControlSetup& setup, Oper
 
 void SimView::take(const view::ViewOrder& order, const view::Reply& reply) {
   orders_.add(order);
-  if (order.stop) reply(takes_goals_ ? "stopping\n" : "a run that keeps its speed does not stop\n");
+  if (order.stop) reply(takes_goals_ ? "stopping\n" : "refused: a run that keeps its speed does not stop\n");
   if (order.reset) reply(stands_ ? "reset\n" : "refused: the robot still moves; try again when it stands\n");
   if (order.here) reply("refused: a simulated robot stands where it is\n");
   if (order.goal && is_stopped_) reply("refused: stopped by this page; press Reset first\n");

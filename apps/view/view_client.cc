@@ -241,8 +241,12 @@ void ViewClient::take_message() {
 
 void ViewClient::obey(const FoxgloveSession::Outcome& outcome) {
   if (!outcome.order.empty())
-    house_.door.on_order(outcome.order, reply_to([](ViewClient& client, const std::string& said) {
-                           client.send({"", std::make_shared<const std::string>(foxglove_answer(said))});
+    house_.door.on_order(outcome.order, reply_to([call = outcome.call](ViewClient& client, const std::string& said) {
+                           const bool is_text = call.empty();
+                           client.send({"",
+                                        std::make_shared<const std::string>(
+                                            is_text ? foxglove_answer(said) : foxglove_service_answer(call, said)),
+                                        is_text});
                          }));
   if (!outcome.status.empty()) send({"", std::make_shared<const std::string>(outcome.status)});
   for (const std::size_t channel : outcome.subscribed) house_.repeat(*this, channel);

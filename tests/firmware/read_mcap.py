@@ -106,6 +106,8 @@ def main():
     require(all(body[12:21] == b"\x05\0\0\0odom\0" for _, body in messages["/odom"]), "/odom is not in odom")
     static = [t[:2] for _, body in messages["/tf_static"] for t in transforms(body)]
     require(static == [("base_link", "laser")], "/tf_static is not base_link to laser, once")
+    require(all(struct.unpack_from("<iI", body, 4) == divmod(time, 10**9) for time, body in messages["/clock"]), "/clock says another time")
+    require(any(b"expected\0" in body for _, body in messages["/tracks"]), "/tracks shows nobody's way ahead")
     for row, (time, body) in zip(rows, messages["/tf"]):
         (*first, mx, my, mh), (*second, ox, oy, oh) = transforms(body)
         require((first, second) == (["map", "odom"], ["odom", "base_link"]), "/tf is not map to odom to base_link")

@@ -57,7 +57,7 @@ for await (const message of indexed.readMessages()) {
 check(indexed.header.profile === "ros2", "the profile is not ros2");
 check(indexed.statistics.messageCount === BigInt([...counts.values()].reduce((a, b) => a + b, 0)), "statistics");
 for (const [topic, list] of messages) check(list.length === (counts.get(topic) ?? 0), `${topic}: index and stream differ`);
-for (const topic of ["/scan", "/points", "/odom", "/tf", "/map", "/plan", "/goal_pose", "/tracks", "/diagnostics", "/cmd_vel", "/tf_static"])
+for (const topic of ["/scan", "/points", "/odom", "/tf", "/map", "/plan", "/goal_pose", "/tracks", "/diagnostics", "/cmd_vel", "/tf_static", "/clock"])
   check((counts.get(topic) ?? 0) > 0, `${topic}: no message`);
 
 const [head, ...rows] = readFileSync(table, "utf8").trim().split("\n").map((line) => line.split(","));

@@ -201,6 +201,30 @@ TEST_CASE("Foxglove's pose estimate says where the robot is, and an answer is a 
   CHECK(foxglove_answer(R"({"kind":"said","text":"going"})") == R"({"level":0,"message":"going","op":"status"})");
 }
 
+TEST_CASE("Foxglove's service /stop stops, and is answered in the encoding that it was asked in") {
+  FoxgloveSession session(1);
+  CHECK(foxglove_greeting({}).back().find(R"("name":"/stop")") != std::string::npos);
+  const auto call = [](const std::string& encoding, char service = 0) {
+    return std::string{'\2', service, 0, 0, 0, 7, 0, 0, 0, static_cast<char>(encoding.size()), 0, 0, 0} + encoding;
+  };
+  for (const std::string encoding : {"cdr", "json"}) {
+    const auto outcome = session.take_binary(call(encoding) + "x");
+    CHECK(outcome.order == R"({"stop":true})");
+    const std::string head = outcome.call;
+    CHECK(head == call(encoding));
+    const std::string answer = foxglove_service_answer(head, R"({"kind":"said","text":"stopping"})");
+    CHECK(answer.starts_with("\3" + head.substr(1)));
+    const std::string body = answer.substr(head.size());
+    CHECK(body == (encoding == "json" ? R"({"message":"stopping","success":true})"
+                                      : std::string("\0\1\0\0\1\0\0\0\x9\0\0\0stopping\0", 21)));
+  }
+  CHECK(foxglove_service_answer(call("json"), R"({"text":"refused: no"})").ends_with(R"("success":false})"));
+  for (const std::string& wrong : {call("cdr", 1), call("xml"), call("cdr").substr(0, 14), std::string("\2")}) {
+    CHECK(session.take_binary(wrong).order.empty());
+    CHECK_FALSE(session.take_binary(wrong).status.empty());
+  }
+}
+
 TEST_CASE("Foxglove's client messages that are none are told, and subscribe to nothing") {
   FoxgloveSession session(3);
   for (const char* text :
