@@ -66,10 +66,6 @@ struct Detection {
   [[nodiscard]] bool whole() const { return !low_hidden() && !high_hidden(); }
   /// -1 where its low side alone is hidden, 1 where its high one is; else 0.
   [[nodiscard]] int hidden_side() const { return (high_hidden() ? 1 : 0) - (low_hidden() ? 1 : 0); }
-  /// Seen on one side of something wider than legs, and to end on the other.
-  [[nodiscard]] bool emerges() const {
-    return behind_more && low_hidden() != high_hidden() && (low_end == End::kSeen || high_end == End::kSeen);
-  }
   /// Seen to end on both sides.
   [[nodiscard]] bool ends() const { return low_end == End::kSeen && high_end == End::kSeen; }
   /// As wide as a body, and seen to end on both sides, or round and nothing hides either.

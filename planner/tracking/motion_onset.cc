@@ -21,6 +21,7 @@ constexpr double kSeenThrough = 0.15;
 // recording of the driving chair 64 of 84 walkers are shown moving, 54 without; nowhere more false ones to 0.1 a
 // minute.
 constexpr double kWasFree = 0.5, kWasFreeSigmas = 1.5;
+constexpr std::size_t kFewestWasFree = 4;
 constexpr double kHopM = 0.5 * kStrideM;        // one leg is seen, then the other
 constexpr double kExplainedSwaying = 0.6;       // legs take turns in being seen
 constexpr double kPerM = 0.1, kCamePerM = 0.2;  // of the walk, a metre of range: 0.1 is 6 degrees of heading
@@ -30,7 +31,6 @@ constexpr double kMayStand = 0.5;               // probability that it stands, a
 // start came to 2.0 in the simulation.
 constexpr double kStartsSigmas = 10.0, kNoiseStarting = 2.5;
 constexpr double kChordM = 0.25, kAlong = 0.7;  // legs are narrower; 45 degrees
-constexpr double kRound = 0.1;                  // half of what a quarter of a circle has
 constexpr double kSlant = 0.35;                 // 20 degrees off square to the beams
 constexpr double kRidesWithinM = 1.2;
 constexpr double kRidesShare = 0.6;       // of its way in the map is all that it moved before the laser
@@ -67,15 +67,8 @@ OldPlace old_place(const MotionEvidence& e, const Surroundings& around) {
   return old;
 }
 
-/// Some of its points stand off the line through its ends by kRound of its length.
-bool round(const Outline& outline) {
-  const Vec2 first = outline[0], chord = outline.back() - first;
-  return std::any_of(outline.begin(), outline.end(),
-                     [&](Vec2 p) { return std::fabs(cross(chord, p - first)) > kRound * dot(chord, chord); });
-}
-
-/// A piece of wall seen at a slant seems to slide along the wall when the robot drives. Then beams pass over where it
-/// was, too, and one of its ends is seen: that tells nothing but of round things.
+/// A piece of wall seen at a slant seems to slide along the wall when the robot drives; beams pass over where it was,
+/// too.
 bool slides_along_itself(const MotionEvidence& e, Vec2 laser) {
   const Outline& outline = e.appearance.outline_in_map;
   const Vec2 chord = outline.back() - outline[0], way = e.way(), beam = e.position() - laser;
@@ -91,8 +84,7 @@ bool walks(const MotionEvidence& e, const StraightFit& fit, const Surroundings& 
   const OldPlace old = old_place(e, around);
   if (old.taken) return false;
   const bool came = e.onset.came_to_free_space(), left = old.through;
-  const bool told = left || edge_walks(e, fit);
-  if (!(told && round(e.appearance.outline_in_map)) && slides_along_itself(e, around.laser_in_map())) return false;
+  if (slides_along_itself(e, around.laser_in_map())) return false;
   if (steady(e, fit)) return true;
   if (came && left) return fit.explained > kExplainedSwaying && fit.length_m > kStandsWithinM;
   const double range_m = distance(around.laser_in_map(), e.position());
@@ -123,20 +115,16 @@ bool filter_walks(const Estimate& estimate) {
 
 /// Fast against what the filter is unsure of, or steady.
 bool beyond_doubt(const MotionEvidence& e, const StraightFit& fit, bool was_free) {
-  if (edge_walks(e, fit) && at_a_walk(fit)) return true;
   if (!filter_walks(e.estimate)) return false;
   const Track& track = e.estimate.track;
   return steady(e, fit) ||
          norm(track.velocity_in_map) > (was_free ? kWasFreeSigmas : kSpeedSigmas) * std::sqrt(track.covariance.vv);
 }
 
-bool positions_enough(const MotionEvidence& e, const StraightFit& fit, bool was_free) {
-  return fit.positions >= (steady(e, fit) || was_free ? kFewestSteady : kFewestPositions);
-}
-
 MotionOnset by_all_positions(const MotionEvidence& e, const Surroundings& around, bool was_free) {
   const StraightFit fit = e.onset.positions.fit();
-  if (!positions_enough(e, fit, was_free) || !far_from_anchor(e, fit) || !beyond_doubt(e, fit, was_free))
+  if (fit.positions < (was_free ? kFewestWasFree : kFewestPositions) || !far_from_anchor(e, fit) ||
+      !beyond_doubt(e, fit, was_free))
     return MotionOnset::kNone;
   if (!walks(e, fit, around)) return MotionOnset::kNone;
   return rigid(e, fit) ? MotionOnset::kCertain : MotionOnset::kLikely;
@@ -154,9 +142,7 @@ bool starts(const MotionEvidence& e, const Surroundings& around) {
   if (fit.sigmas < kStartsSigmas || fit.length_m < kSteadyM) return false;
   if (!keeps_its_width(fit, fit.width_change_m - fit.spacing_m)) return false;
   if (!at_a_walk(fit) || fit.longest_hop_m > kHopM) return false;
-  const OldPlace old = old_place(e, around);
-  const bool told = old.through && round(seen.outline_in_map);
-  return !old.taken && (told || !slides_along_itself(e, around.laser_in_map()));
+  return !slides_along_itself(e, around.laser_in_map());
 }
 
 void anchor_target(Target& target, const Pose2& map_from_laser, Time now) {

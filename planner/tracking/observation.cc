@@ -81,7 +81,6 @@ Observation observation_of(const Detections& detections, std::size_t lead, std::
                    .whole = c.whole(),
                    .hidden_side = c.hidden_side(),
                    .on_wall = c.on_wall,
-                   .edge_m = c.emerges() ? c.spacing_m : 0.0,
                    .width_m = distance(c.outline_in_map[0], c.outline_in_map.back()),
                    .spacing_m = c.spacing_m,
                    .was_off = {}};

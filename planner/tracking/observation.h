@@ -17,7 +17,6 @@ struct Observation {
   bool whole = false;      ///< nothing hid either side of that
   int hidden_side = 0;     ///< Detection::hidden_side of that
   bool on_wall = false;    ///< that stands where walls stand
-  double edge_m = 0.0;     ///< Target::edge_m
   double width_m = 0.0;    ///< of what is seen of that
   double spacing_m = 0.0;  ///< from beam to beam, across them
   double arc_m = 0.0;      ///< half its width across the beams where it is whole and no leg; else 0

@@ -22,15 +22,9 @@ constexpr double kSolidSigmas = 7.0, kThingSigmas = 15.0;
 // The same of bodies that came to free space: no false mover in no_people_left.
 constexpr double kCameSigmas = 4.5, kCameM = 0.06;
 constexpr double kRigidShare = 0.3;  // of its walk is all that its width changes by
-constexpr double kSideShare = 0.4;   // of its way is the least that a seen side went: 0.3 and 0.5 tell as much
 // Of what it grew by, where nothing says that it came: a surface that comes into view on one side and goes out of it on
 // the other: at a quarter of the headings of no_people_left. 1.5 to 3 tell as much.
 constexpr double kGrewUnfree = 2.0;
-constexpr double kEdges = 1.5;  // beam spacings: where its seen side is, is known to one
-
-/// Comes out from behind something wider than legs, which no leg that takes its turn does. Its free side is where its
-/// path is measured, and a surface that comes into view has that where it always was.
-bool emerges(const Appearance& seen) { return seen.edge_m > 0.0 && seen.steadily_seen(); }
 
 /// The least of a steady walk that is believed.
 struct LeastWalk {
@@ -38,20 +32,9 @@ struct LeastWalk {
 };
 
 LeastWalk least_walk(const MotionEvidence& e, const StraightFit& fit) {
-  if (!e.appearance.solid() && !emerges(e.appearance)) return {kThingSigmas, kSteadyM};
+  if (!e.appearance.solid()) return {kThingSigmas, kSteadyM};
   if (e.onset.came_to_free_space() && fit.explained > kStraightExplains) return {kCameSigmas, kCameM};
   return {kSolidSigmas, kSteadyM};
-}
-
-/// One side of the target went from `then` to `now`: along its way, or not.
-bool went_along(Vec2 way, Vec2 then, Vec2 now) { return dot(now - then, way) > kSideShare * dot(way, way); }
-
-/// Each side that is seen and was seen at the anchor went along.
-bool seen_sides_went(const Appearance& seen, const OnsetHistory& onset, Vec2 way) {
-  const Outline &then = onset.anchor_outline, &now = seen.outline_in_map;
-  if (then.empty() || now.empty()) return true;
-  const bool low = seen.low_seen() && onset.anchor_low_seen, high = seen.high_seen() && onset.anchor_high_seen;
-  return (!low || went_along(way, then[0], now[0])) && (!high || went_along(way, then.back(), now.back()));
 }
 
 }  // namespace
@@ -155,8 +138,7 @@ StraightFit PositionHistory::fit_newest(std::size_t fewest) const noexcept {
 bool steady(const MotionEvidence& e, const StraightFit& fit) noexcept {
   const LeastWalk least = least_walk(e, fit);
   const double grew_m = fit.width_change_m * (e.onset.came_to_free_space() ? 1.0 : kGrewUnfree);
-  return fit.sigmas > least.sigmas && seen_sides_went(e.appearance, e.onset, e.way()) &&
-         fit.length_m > std::max({least.length_m, grew_m, kEdges * e.appearance.edge_m});
+  return fit.sigmas > least.sigmas && fit.length_m > std::max(least.length_m, grew_m);
 }
 
 double least_steady_m(const MotionEvidence& e, const StraightFit& fit) noexcept { return least_walk(e, fit).length_m; }
@@ -164,12 +146,8 @@ double least_steady_m(const MotionEvidence& e, const StraightFit& fit) noexcept 
 bool keeps_its_width(const StraightFit& fit, double change_m) noexcept { return change_m < kRigidShare * fit.length_m; }
 
 bool rigid(const MotionEvidence& e, const StraightFit& fit) noexcept {
-  const bool both_sides = e.appearance.whole && fit.whole_positions >= kFewestSteady;
+  const bool both_sides = e.appearance.whole && fit.whole_positions >= kFewestWhole;
   return both_sides && e.appearance.solid() && steady(e, fit) && keeps_its_width(fit, fit.width_change_m);
-}
-
-bool edge_walks(const MotionEvidence& e, const StraightFit& fit) noexcept {
-  return emerges(e.appearance) && steady(e, fit);
 }
 
 }  // namespace jaywalk

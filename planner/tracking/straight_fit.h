@@ -70,14 +70,13 @@ class PositionHistory {
 inline constexpr double kStraightExplains = 0.8;
 /// The shortest steady walk, where nothing more is known.
 inline constexpr double kSteadyM = 0.10;
-/// Positions of a steady walk, and of those at which both its sides must have been seen: of what was seen whole once,
-/// the side that came into view seems to go along.
-inline constexpr std::size_t kFewestSteady = 4;
+/// Positions at which both sides of a rigid walk must have been seen: of what was seen whole once, the side that came
+/// into view seems to go along.
+inline constexpr std::size_t kFewestWhole = 4;
 
 /// Whether `fit` is so straight for its length that there is no doubt left (a slow robot is both slow and straight, a
 /// person fast and swaying): so many of its standard deviations long that it is a walk, and longer than growing or
-/// shrinking explains. The more the target and the ground tell, the shorter it may be. A side that is seen, and was
-/// seen where the walk began, must have gone along: what comes into view of a thing that stands leaves it there.
+/// shrinking explains. The more the target and the ground tell, the shorter it may be.
 [[nodiscard]] bool steady(const MotionEvidence& e, const StraightFit& fit) noexcept;
 
 /// The shortest walk that is steady, m.
@@ -88,9 +87,5 @@ inline constexpr std::size_t kFewestSteady = 4;
 
 /// Steady, and both sides of a body went along, of which nothing hides either: no surface that comes into view does so.
 [[nodiscard]] bool rigid(const MotionEvidence& e, const StraightFit& fit) noexcept;
-
-/// Steady, of a target that comes out from behind something. What the side that is seen went says more, and sooner,
-/// than a filter that does not know yet how wide the target is.
-[[nodiscard]] bool edge_walks(const MotionEvidence& e, const StraightFit& fit) noexcept;
 
 }  // namespace jaywalk

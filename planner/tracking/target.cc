@@ -104,8 +104,6 @@ void anchor_here(OnsetHistory& onset, Vec2 position, const Appearance& seen, con
                  Time now) noexcept {
   onset.anchor_in_map = position;
   onset.anchor_outline = seen.outline_in_map;
-  onset.anchor_low_seen = seen.low_seen();
-  onset.anchor_high_seen = seen.high_seen();
   onset.anchor_in_laser = inverse(map_from_laser) * position;
   onset.anchored = now;
 }
@@ -155,7 +153,6 @@ void note_seen(Estimate& estimate, Appearance& appearance, const Observation& se
   appearance.whole = seen.whole;
   appearance.hidden_side = seen.hidden_side;
   appearance.on_wall = seen.on_wall;
-  appearance.edge_m = seen.edge_m;
 }
 
 void update_with(Target& target, const Observation& seen, const Pose2& map_from_laser, Time now) noexcept {

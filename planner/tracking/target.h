@@ -38,19 +38,13 @@ struct Appearance {
   bool whole = false;       ///< nothing hid either side of it
   int hidden_side = 0;      ///< Detection::hidden_side
   bool on_wall = false;     ///< it stood where walls stand
-  double edge_m = 0.0;      ///< how well its free side was seen, behind something wider than legs; 0: not so
   Outline outline_in_map;   ///< some of its points
   BeamRun beams;            ///< that ended on it
 
-  /// Nothing hid its first beams' side.
-  [[nodiscard]] bool low_seen() const { return whole || hidden_side > 0; }
-  /// Nor its last beams'.
-  [[nodiscard]] bool high_seen() const { return whole || hidden_side < 0; }
   /// Two legs that pass each other are as wide as a body now and then, and no arc of one.
   [[nodiscard]] bool on_legs() const { return legs_share > kOnLegs; }
-  [[nodiscard]] bool steadily_seen() const { return noise < kSolidNoise; }
   /// As wide as people and robots are, and seen to stay where it should be as solid things do.
-  [[nodiscard]] bool solid() const { return as_wide_as_a_body(arc_m) && steadily_seen(); }
+  [[nodiscard]] bool solid() const { return as_wide_as_a_body(arc_m) && noise < kSolidNoise; }
 
   static constexpr double kSolidNoise = 1.5;  ///< legs and corners that change places have more
   static constexpr double kOnLegs = 0.25;     ///< chosen: most detections of a pedestrian show two legs, of a disc none
@@ -59,15 +53,13 @@ struct Appearance {
 /// What tells whether the target started moving.
 struct OnsetHistory {
   PositionHistory positions;
-  double free_share = 0.0;        ///< running mean: share of the detections on ground that was free before
-  Time anchored = kNever;         ///< since when it is watched for going away from the anchor
-  Vec2 anchor_in_map;             ///< where it was then
-  Outline anchor_outline;         ///< points of it that were seen there, in the map
-  bool anchor_low_seen = false;   ///< nothing hid its first beams' side there
-  bool anchor_high_seen = false;  ///< nor its last beams'
-  Vec2 anchor_in_laser;           ///< the anchor, seen from where the robot's first laser was then
-  Time slow_since = kNever;       ///< since when a moving track has been below kStoppedMps; kNever: it is not
-  std::uint32_t onsets = 0;       ///< scans in a row that saw it start moving
+  double free_share = 0.0;   ///< running mean: share of the detections on ground that was free before
+  Time anchored = kNever;    ///< since when it is watched for going away from the anchor
+  Vec2 anchor_in_map;        ///< where it was then
+  Outline anchor_outline;    ///< points of it that were seen there, in the map
+  Vec2 anchor_in_laser;      ///< the anchor, seen from where the robot's first laser was then
+  Time slow_since = kNever;  ///< since when a moving track has been below kStoppedMps; kNever: it is not
+  std::uint32_t onsets = 0;  ///< scans in a row that saw it start moving
 
   /// It was seen where nothing stood before, most of the time.
   [[nodiscard]] bool came_to_free_space() const { return free_share > kMostlyFree; }

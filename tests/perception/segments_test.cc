@@ -167,7 +167,6 @@ TEST_CASE("a body half behind something nearer knows which of its sides is hidde
   CHECK(half->low_hidden());  // beams count from right to left
   CHECK_FALSE(half->high_hidden());
   CHECK_FALSE(half->whole());
-  CHECK(half->emerges());
   CHECK(half->radius_m == Approx(0.135).margin(0.02));
   CHECK(half->high_side.y > 0.99);
   CHECK(half->along.x > 0.99);
@@ -183,10 +182,9 @@ TEST_CASE("a side beside which beams return nothing is not seen to end") {
   REQUIRE(half != nullptr);
   CHECK(half->low_end == End::kHidden);
   CHECK(half->high_end == End::kUnknown);
-  CHECK_FALSE(half->emerges());
 }
 
-TEST_CASE("what is half behind a leg does not emerge: legs take turns in hiding one another") {
+TEST_CASE("what is half behind a leg is not behind more: legs take turns in hiding one another") {
   Room room;
   room.discs = {{{2.0, 0.0}, 0.06}, {{3.0, 0.15}, 0.1}};  // the nearer hides what lies up to 0.09 m left of straight
   const auto cut = std::make_unique<Cut>(room, seen_free_all_over());
@@ -194,22 +192,22 @@ TEST_CASE("what is half behind a leg does not emerge: legs take turns in hiding 
   for (const Detection& c : cut->detections) half = distance(c.centre_in_map, {3.0, 0.17}) < 0.2 ? &c : half;
   REQUIRE(half != nullptr);
   CHECK(half->low_hidden());
-  CHECK_FALSE(half->emerges());
+  CHECK_FALSE(half->behind_more);
 }
 
 TEST_CASE("a narrow piece hides more than a leg where something wide that is nearer hides it, well before") {
-  const auto emerges = [](double piece_x_m) {
+  const auto behind_more = [](double piece_x_m) {
     Room room;  // a wall hides all but a hand's breadth of a piece beside it, and that one a body's right half
     room.walls = {{{0.5, 0.0}, {0.5, -0.8}}, {{piece_x_m, -1.0}, {piece_x_m, 0.1}}, {{6.0, -4.0}, {6.0, 4.0}}};
     room.discs = {{{3.0, 0.1 * 3.0 / piece_x_m}, 0.27}};
     const auto cut = std::make_unique<Cut>(room, seen_free_all_over());
     for (const Detection& c : cut->detections) {
-      if (distance(c.centre_in_map, {3.0, 0.3}) < 0.35) return c.emerges();
+      if (distance(c.centre_in_map, {3.0, 0.3}) < 0.35) return c.behind_more;
     }
     return false;
   };
-  CHECK(emerges(1.5));
-  CHECK_FALSE(emerges(2.5));  // a piece of the same heap
+  CHECK(behind_more(1.5));
+  CHECK_FALSE(behind_more(2.5));  // a piece of the same heap
 }
 
 /// Of what has stood there for two seconds.
@@ -265,7 +263,6 @@ TEST_CASE("what reaches the end of the sweep may go on outside it") {
   REQUIRE(cut->detections.size() == 1);
   CHECK(cut->detections[0].high_hidden());
   CHECK_FALSE(cut->detections[0].low_hidden());
-  CHECK_FALSE(cut->detections[0].emerges());  // a glint on glass goes along with the robot there
   CHECK(cut->detections[0].beams.last == 810);
 }
 
@@ -300,7 +297,6 @@ TEST_CASE("where a scan all round begins, sides and what hides them are told bey
   CHECK(half.low_end == End::kHidden);
   CHECK(half.high_end == End::kSeen);
   CHECK(half.behind_more);
-  CHECK(half.emerges());
 }
 
 TEST_CASE("a circular room without a jump is one wall, and no body though its ends meet") {

@@ -119,34 +119,3 @@ TEST_CASE("who grows as he goes must go twice as far where nobody called the gro
   CHECK_FALSE(walks_growing(0.1, 0.0));
   CHECK(walks_growing(0.1, 1.0));
 }
-
-TEST_CASE("of a target that is seen whole both sides must have gone, but not one that was hidden where it set out") {
-  Target target = walker({3.0, 0.0}, {3.0, 0.2});
-  target.appearance.arc_m = 0.25;
-  CHECK(steady(target.motion(), target.onset.positions.fit()));
-  const Target both_went = target;
-  target.appearance.outline_in_map[0] =
-      target.onset.anchor_outline[0];  // its other side came into view, and its middle went that way
-  CHECK_FALSE(steady(target.motion(), target.onset.positions.fit()));
-  target.onset.anchor_low_seen = false;  // it was what hid that side that ended there
-  CHECK(steady(target.motion(), target.onset.positions.fit()));
-  target = both_went;
-  target.appearance.outline_in_map.back() = target.onset.anchor_outline.back();
-  CHECK_FALSE(steady(target.motion(), target.onset.positions.fit()));
-  target.onset.anchor_high_seen = false;
-  CHECK(steady(target.motion(), target.onset.positions.fit()));
-}
-
-TEST_CASE("where a target begins to be watched it is remembered which of its sides are seen") {
-  Target target = walker({3.0, 0.0}, {3.0, 0.2});
-  const auto seen_at_anchor = [&](bool whole, int hidden_side) {
-    target.appearance.whole = whole;
-    target.appearance.hidden_side = hidden_side;
-    anchor_here(target.onset, target.estimate.track.position_in_map, target.appearance, {}, time_from_seconds(1.0));
-    return std::array{target.onset.anchor_low_seen, target.onset.anchor_high_seen};
-  };
-  CHECK(seen_at_anchor(true, 0) == std::array{true, true});
-  CHECK(seen_at_anchor(false, 1) == std::array{true, false});
-  CHECK(seen_at_anchor(false, -1) == std::array{false, true});
-  CHECK(seen_at_anchor(false, 0) == std::array{false, false});
-}

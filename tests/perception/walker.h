@@ -17,7 +17,7 @@ inline Target walker(Vec2 from, Vec2 to) {
   target.estimate.track.velocity_in_map = to - from;
   target.estimate.track.covariance = {.pp = 0.002, .pv = 0.0, .vv = 0.04};
   target.onset.free_share = 1.0;
-  target.appearance.whole = target.onset.anchor_low_seen = target.onset.anchor_high_seen = true;
+  target.appearance.whole = true;
   target.estimate.filter = ImmFilter(target.estimate.track);
   return target;
 }
