@@ -209,6 +209,8 @@ int run_robot(RunOptions options, const MakeObserver& make_observer) {
   if (armed.was_left()) latch_at_start(desk);
   guard.start(guard_priority(file.realtime));
   loop.start();
+  while (loop.ticks() == 0 && !loop.has_ended())
+    std::this_thread::sleep_for(kReportPeriod);  // till then no goal is taken
   for (const std::string& line : not_permitted) remark(line);
   remark("armed: " + in_short(proof) + "; ready for jaywalk goto X,Y [HEADING]");
   service.ready();

@@ -167,10 +167,11 @@ void RobotLoop::tell(const TickRecord& t) noexcept {
   status_.other_lasers.clear();
   for (const auto& laser : devices_.lasers.subspan(1)) (void)status_.other_lasers.push_back(laser->health());
   status_.bus = devices_.bus.health();
-  status_.ticks = ticks_.fetch_add(1, std::memory_order_relaxed) + 1;
+  status_.ticks = ticks() + 1;
   status_.stalls = guard_.stalls();
   check_place(t);
   desk_.tell(status_);
+  ticks_.store(status_.ticks, std::memory_order_release);  // whoever sees it finds the desk told
 }
 
 void RobotLoop::check_place(const TickRecord& t) noexcept {

@@ -95,7 +95,7 @@ class RobotLoop {
   [[nodiscard]] bool has_ended() const noexcept { return ended_; }
 
   /// So far; any thread.
-  [[nodiscard]] std::uint64_t ticks() const noexcept { return ticks_.load(std::memory_order_relaxed); }
+  [[nodiscard]] std::uint64_t ticks() const noexcept { return ticks_.load(std::memory_order_acquire); }
 
   /// The tick that is due at `due`, now: what the loop's thread does when it wakes. By hand where no thread was
   /// started.

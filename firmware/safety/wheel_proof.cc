@@ -138,25 +138,33 @@ void WheelProof::keep(const LaserScan& scan, const Rolled& rolled) noexcept {
   times_against_ = times_for_ = 0;
 }
 
-/// Matches from the best of six starts: the felt way, three and ten times it, none, backwards, the last motion again.
+/// Matches from the felt way, and from the best of five other starts: none, three and ten times it, backwards, the last
+/// motion again. The second match counts where it explains the scan better by kProofEvidence: along a bare wall all
+/// explain it alike, and from match to match they would slide away from the felt way.
 void WheelProof::match(const LaserScan& scan, const Rolled& felt) noexcept {
   const Pose2 on = fit_.kept_from_now * (inverse(before_) * fit_.kept_from_now);
   const auto times = [&](double left, double right) {
     return arc_of({left * felt.left_m, right * felt.right_m}, drive_.track_width_m);
   };
-  const std::array starts{times(1.0, 1.0), on, Pose2{}, times(3.0, 3.0), times(10.0, 10.0), times(-1.0, -1.0)};
-  Pose2 start = starts[0];
+  const std::array others{Pose2{}, on, times(3.0, 3.0), times(10.0, 10.0), times(-1.0, -1.0)};
+  Pose2 start = others[0];
   ScanPair::Errors least = pair_.errors(scan, start);
-  for (std::size_t k = 1; k < starts.size(); ++k) {
-    const ScanPair::Errors errors = pair_.errors(scan, starts[k]);
+  for (const Pose2& other : others) {
+    const ScanPair::Errors errors = pair_.errors(scan, other);
     if (ScanPair::total(pair_.advantage(errors, least, ScanPair::kRough_m, false)) <= 0.0) continue;
     least = errors;
-    start = starts[k];
+    start = other;
   }
   before_ = fit_.kept_from_now;
-  fit_ = pair_.fit(scan, start);
-  const ScanPair::Errors seen = pair_.errors(scan, fit_.kept_from_now);
-  evidence_ = ScanPair::without_greatest(pair_.advantage(seen, pair_.errors(scan, starts[0]), fit_.noise_m, true));
+  const Pose2 by_wheels = times(1.0, 1.0);
+  fit_ = pair_.fit(scan, by_wheels);
+  const ScanPair::Fit other = pair_.fit(scan, start);
+  const auto over = [&](const ScanPair::Fit& fit, const Pose2& than, bool walls) {
+    const ScanPair::Errors seen = pair_.errors(scan, fit.kept_from_now), worse = pair_.errors(scan, than);
+    return ScanPair::without_greatest(pair_.advantage(seen, worse, fit.noise_m, walls));
+  };
+  if (other.tells() && over(other, fit_.kept_from_now, false) > kProofEvidence) fit_ = other;
+  evidence_ = over(fit_, by_wheels, true);
 }
 
 Rolled WheelProof::seen() const noexcept {

@@ -3,16 +3,16 @@
 # $RIG_ROBOT: another file of tools/rig/drive than robot.toml; $RIG_GOAL: another goal than the usual one;
 # $RIG_HALL: another world of the far end;
 # $RIG_SLOW: leave out what takes long on an emulated machine;
-# $RIG_CAN and $RIG_FAR_CAN name other interfaces than vcan0: two controllers on one bus.
+# $RIG_CAN and $RIG_FAR_CAN name other interfaces than vcan0: two controllers on one bus; an empty RIG_CAN: no bus, any kernel does.
 # usage: source rig_session.sh JAYWALK PLANT ROOT
 set -uo pipefail
 jaywalk=$1 plant=$2 root=$3
 talk=$(dirname "$plant")/jaywalk_talk
 # In memory: a file of this machine's would hold up the guest, whose time is real.
 out=$(mktemp -d -p /dev/shm) || exit 1
-can=${RIG_CAN:-vcan0} far_can=${RIG_FAR_CAN:-vcan0}
-[ -e "/sys/class/net/$can" ] || { rm -r "$out"; echo "skipped: no interface $can"; exit 77; }
-sed "s/vcan0/$can/; s#/tmp/jaywalk_scanner#$out/scanner#" "$root/tools/rig/drive/${RIG_ROBOT:-robot}.toml" >"$out/robot.toml"
+can=${RIG_CAN-vcan0} far_can=${RIG_FAR_CAN:-vcan0}
+[ -z "$can" ] || [ -e "/sys/class/net/$can" ] || { rm -r "$out"; echo "skipped: no interface $can"; exit 77; }
+sed "s/vcan0/$can/; s#/tmp/jaywalk_#$out/#; s#\"\.\./#\"$root/tools/rig/drive/../#" "$root/tools/rig/drive/${RIG_ROBOT:-robot}.toml" >"$out/robot.toml"
 export JAYWALK_SOCKET=$out/control XDG_RUNTIME_DIR=$out/own
 mkdir -m 700 "$out/own"
 failed=0

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <cstring>
 #include <sstream>
 #include <string>
 
@@ -196,8 +197,7 @@ inline void SafetyCore::follow_bus() {
     }
     if (frame.id != 0x205 || frame.size < 6) continue;
     target_before_ = target_;
-    target_ = static_cast<std::int32_t>(static_cast<std::uint32_t>(frame.bytes[2]) | frame.bytes[3] << 8U |
-                                        frame.bytes[4] << 16U | static_cast<std::uint32_t>(frame.bytes[5]) << 24U);
+    std::memcpy(&target_, frame.bytes.data() + 2, sizeof target_);  // little-endian, as all our machines are
   }
 }
 
