@@ -171,7 +171,7 @@ void RobotLoop::tell(const TickRecord& t) noexcept {
   status_.stalls = guard_.stalls();
   check_place(t);
   desk_.tell(status_);
-  ticks_.store(status_.ticks, std::memory_order_release);  // whoever sees it finds the desk told
+  ticks_.store(status_.ticks, std::memory_order_release);  // after the desk was told: a run is ready then
 }
 
 void RobotLoop::check_place(const TickRecord& t) noexcept {
