@@ -49,7 +49,8 @@ double number_in(const Json& json, const char* key) {
 std::optional<ViewOrder> parse_order(std::string_view json) {
   const Json parsed = Json::parse(json, nullptr, false);
   if (!parsed.is_object() || parsed.size() != 1) return std::nullopt;
-  const auto& [name, value] = *parsed.items().begin();
+  const std::string& name = parsed.begin().key();
+  const Json& value = parsed.begin().value();
   ViewOrder order;
   if (name == "goal" || name == "here") {
     const auto pose = (name == "goal" ? order.goal : order.here) = goal_of(value);

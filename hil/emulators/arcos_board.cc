@@ -24,7 +24,7 @@ std::uint16_t arcos_sum(std::span<const std::uint8_t> body) {
 }
 
 void put(std::vector<std::uint8_t>& body, std::int64_t number, int bytes) {
-  for (int k = 0; k < bytes; ++k) body.push_back(static_cast<std::uint8_t>(number >> (8 * k)));
+  for (int k = 0; k < bytes; ++k, number >>= 8) body.push_back(static_cast<std::uint8_t>(number));
 }
 
 void put_text(std::vector<std::uint8_t>& body, const std::string& text) {
