@@ -25,6 +25,9 @@ constexpr double kTurnSine = 0.43;  ///< of 0.45 rad, in half a second: it has t
 
 double speed_of(const Track& t) { return norm(t.velocity_in_map); }
 
+/// In one place, s; 0 where that is not known yet.
+double stood_s(const Track& t, Time now) { return t.still_since == kNever ? 0.0 : to_seconds(now - t.still_since); }
+
 bool is_as_wide_as_a_body(const Track& t) { return t.radius_m > kLeastBodyM && t.radius_m < kWidestBodyM; }
 
 }  // namespace
@@ -150,7 +153,7 @@ MoverBelief MoverHistory::belief_of(const History& m, Time now) const noexcept {
           .usual_mps = m.usual_mps > 0.1 ? f(m.usual_mps) : turning_.usual_mps,
           .has_walked = m.has_walked(),
           .newcomer = !m.has_walked(),
-          .stood_s = f(to_seconds(now - m.track.still_since))};
+          .stood_s = f(stood_s(m.track, now))};
 }
 
 void MoverHistory::believe(const Seen& seen) noexcept {
@@ -159,7 +162,7 @@ void MoverHistory::believe(const Seen& seen) noexcept {
   masked_.clear();
   for (const History& m : histories_) {
     if (m.has_walked()) {
-      const bool lasting = to_seconds(seen.now - m.track.still_since) > kLastingS;
+      const bool lasting = stood_s(m.track, seen.now) > kLastingS;
       (void)masked_.push_back({m.track.position_in_map, m.track.radius_m, lasting});
     }
     if (distance(m.track.position_in_map, robot) < kWithinM && may_walk(m, seen)) {

@@ -37,16 +37,17 @@ TEST_CASE("a robot 0.38 m wide keeps clear of somebody who stands in a passage, 
   RobotModel narrow = p3dx();
   narrow.footprint = {0.2275, 0.2275, 0.1905};
   int passed = 0;
-  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
     CAPTURE(seed);
     const Passing passing = pass(narrow, seed);
     CHECK(passing.arrived);
     CHECK(passing.contacts == 0);
     CHECK(passing.beside_mps < 0.35);  // politely: 0.2 m/s, or the gap within a second
-    // 0.11 to 0.22 m, in 28 to 39 s; 0.09 to 0.10 m when it keeps clear of his shins.
+    // 0.11 to 0.22 m, in 28 to 39 s; 0.09 to 0.10 m when it keeps clear of his shins. Of 24 seeds 19 do so, three come
+    // to 0.09 to 0.10 m, and with two it stands beside him until he goes on, at the 48th second.
     passed += passing.nearest_m > 0.105 && passing.seconds < 48.0 ? 1 : 0;
   }
-  CHECK(passed >= 7);  // with seed 2 it stands beside him until he goes on, at the 48th second
+  CHECK(passed >= 9);
 }
 
 TEST_CASE("a wheelchair that has no room beside him waits until he goes on") {

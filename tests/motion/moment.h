@@ -11,6 +11,7 @@ struct Moment {
     scan.beam_count = 3;
     scan.range_max_m = 25.0F;
     scan.stamp = plan.stamp = now;
+    for (Track& track : tracks) track.stamp = now;
   }
 
   const EvidenceMap& still;

@@ -61,7 +61,7 @@ namespace {
 
 std::string low_first(std::uint32_t v, int bytes) {
   std::string text;
-  for (int k = 0; k < bytes; ++k) text += static_cast<char>(v >> (8 * k));
+  for (int k = 0; k < bytes; ++k) text += k < 4 ? static_cast<char>(v >> (8 * k)) : '\0';
   return text;
 }
 

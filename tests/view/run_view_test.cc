@@ -252,7 +252,9 @@ void beset(int clients, std::chrono::seconds for_) {
               figures.grown_kB, figures.missed, figures.ticks, figures.stops, figures.slowest_stop_ms);
   CHECK(figures.stops_heard == figures.stops);
   CHECK(figures.pages_served == figures.pages);
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // these keep what was given back
   CHECK(figures.grown_kB < 20'000);
+#endif
   CHECK(figures.ticks > 0);
 }
 
