@@ -11,7 +11,6 @@ struct Moment {
     scan.beam_count = 3;
     scan.range_max_m = 25.0F;
     scan.stamp = plan.stamp = now;
-    for (Track& track : tracks) track.stamp = now;
   }
 
   const EvidenceMap& still;
@@ -51,6 +50,7 @@ struct Moment {
   /// With a new scan and a new plan.
   void decide(motion::Motion& motion) {
     scan.stamp = plan.stamp = now;
+    for (Track& track : tracks) track.stamp = now;
     motion::World news = world();
     news.new_scan = news.new_plan = true;
     motion.decide(news, intent());
