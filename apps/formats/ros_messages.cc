@@ -61,7 +61,7 @@ void marker(CdrWriter& out, const Track& track, Time time, const char* space, st
   const bool is_line = !points.empty();
   header(out, time, "map");
   out.text(space).i32(track.id).i32(is_line ? kLineStrip : kCylinder).i32(kAdd);
-  const Vec2 at = is_line ? Vec2{} : track.position_in_map;  // a line's points are in the map as they are
+  const Vec2 at = is_line ? Vec2{} : track.position_in_map;  // a line's points are map coordinates already
   pose(out, {at.x, at.y, is_line ? 0.0 : std::atan2(track.velocity_in_map.y, track.velocity_in_map.x)});
   vector(out, is_line ? kLineM : 2.0 * track.radius_m, 2.0 * track.radius_m, 1.0);
   out.f32(track.moving ? 0.8 : 0.4).f32(track.moving ? 0.3 : 0.4).f32(track.moving ? 0.2 : 0.5).f32(0.8);

@@ -27,7 +27,7 @@ std::string in_quotes(std::string text) {
   return text;
 }
 
-/// What `ros2 bag` wants beside the file (rosbag2's version 5 of it).
+/// metadata.yaml beside the file, as `ros2 bag` reads it (rosbag2's version 5).
 void write_metadata(const std::filesystem::path& file, const exchange::McapWriter& mcap) {
   std::string topics;
   for (const auto& topic : mcap.topics()) {

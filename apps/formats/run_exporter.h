@@ -16,7 +16,7 @@ class RunExporter {
   /// Throws StartupError when the file cannot be made.
   RunExporter(const std::filesystem::path& file, const ControlSetup& setup);
 
-  /// What the tick tells, and what was seen up to it.
+  /// Messages of one tick, with the tracker's state after it.
   void add(const TickRecord& t, const Tracker& tracker);
   /// Attaches the recording, where there is one (else empty) in one file, so that `jaywalk replay` comes to the same
   /// commands, and ends the files. Throws StartupError where the disk did not take all.

@@ -64,7 +64,7 @@ Json stop_service() {
           {"response", message_type("std_srvs/srv/Trigger_Response", "bool success\nstring message\n")}};
 }
 
-/// Of a payload that has so many bytes; little-endian, as all our machines are.
+/// Number of four bytes from byte `at` on, which the payload must have; little-endian, as all our machines are.
 std::uint32_t u32_at(std::string_view payload, std::size_t at) {
   std::uint32_t number = 0;
   std::memcpy(&number, payload.data() + at, sizeof number);

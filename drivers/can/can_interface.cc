@@ -30,7 +30,7 @@ T read_as(Octets bytes) {
   return value;
 }
 
-/// What the attribute of that type holds (struct rtattr, each at a multiple of four); empty where there is none.
+/// Payload of the attribute of that type (struct rtattr, each at a multiple of four bytes); empty where there is none.
 Octets attribute(Octets bytes, std::uint16_t type) {
   while (bytes.size() >= sizeof(rtattr)) {
     const auto head = read_as<rtattr>(bytes);

@@ -10,7 +10,7 @@
 
 namespace jaywalk {
 
-/// What the kernel knows of a network interface.
+/// State and settings of a network interface, from the kernel.
 struct LinkFacts {
   bool exists = false;
   bool is_can = false;

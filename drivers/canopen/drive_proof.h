@@ -150,7 +150,7 @@ class DriveProof {
   void poll(Time now) noexcept;
 
   [[nodiscard]] State state() const noexcept { return state_; }
-  /// Of the heartbeat that ended it.
+  /// Time of the heartbeat that ended the proof.
   [[nodiscard]] Time heard() const noexcept { return heard_; }
   /// What the drive said so far, a line a setting. Not for the loop.
   [[nodiscard]] std::vector<std::string> report() const;

@@ -20,8 +20,8 @@ struct AxisLimits {
   Duration showing{0};     ///< from enabling until it shows its mode
 };
 
-/// What one drive says of itself, frame by frame: network state, power state, mode, speed and position of its wheel;
-/// and the frame that commands it. Never allocates.
+/// State of one drive by its frames (network state, power state, mode, speed and position of its wheel), and the frame
+/// that commands it. Never allocates.
 class WheelAxis {
  public:
   WheelAxis() = default;
@@ -38,7 +38,7 @@ class WheelAxis {
   void note_sync(Time now) noexcept;
   /// Since begin() its node number spoke more often than one drive does: a second drive has it.
   [[nodiscard]] bool has_twin() const noexcept { return has_twin_; }
-  /// What is wrong with it by what it said since begin().
+  /// The drive's fault by its frames since begin(); kNone where there is none.
   [[nodiscard]] DriveTrouble trouble(Time now, const AxisLimits& limits) noexcept;
   /// Whether its heartbeat is late. Booted up anew it may have none before it is set up.
   [[nodiscard]] bool is_silent(Time now, Duration limit) const noexcept {

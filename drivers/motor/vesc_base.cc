@@ -84,7 +84,7 @@ std::string VescBase::proof_remedy(std::size_t index) const {
 void VescBase::take(const ReceivedFrame& received) noexcept {
   const CanFrame& frame = received.frame;
   const auto message = decode(frame);
-  // Nobody but us has our number: what bears it is an answer to us, or another master's.
+  // The controller's own number is its alone: a frame with it answers the controller or is another master's.
   if (frame.extended && (frame.id & 0xFFU) == setup_.own) {
     if (!message || !take_answer(*message, received.stamp)) note_foreign(frame);
     return;
@@ -116,7 +116,7 @@ bool VescBase::is_awaited(std::size_t index, Time stamp) const noexcept {
 
 bool VescBase::take_answer(const Message& message, Time stamp) noexcept {
   if (const auto* fault = std::get_if<Fault>(&message.content)) return take_fault(*fault);
-  if (const auto* piece = std::get_if<Piece>(&message.content)) {  // it does not say from whom
+  if (const auto* piece = std::get_if<Piece>(&message.content)) {  // a piece names no sender
     reader_.take(*piece);
     return is_awaited(0, stamp) || is_awaited(1, stamp);
   }
@@ -177,7 +177,8 @@ void VescBase::hold_to_speed(std::size_t index, bool runs, std::int32_t erpm) no
 }
 
 void VescBase::ask_for_fault(std::size_t index) noexcept {
-  constexpr std::uint32_t kMostOpen = 5;  // answers may be late or lost, and one that nobody asked for must stand out
+  constexpr std::uint32_t kMostOpen =
+      5;  // requests: some answers are late or lost, and an answer beyond them is another master's
   Seen& seen = seen_[index];
   seen.open_asks = std::min(seen.open_asks + 1, kMostOpen);
   send(ask_fault(setup_.axes[index].node, setup_.own));

@@ -52,7 +52,7 @@ class VescBase final : public MotorPair {
 
   void take(const ReceivedFrame& received) noexcept override;
   void take_own(std::size_t index, const Message& message, Time stamp) noexcept;
-  /// False where nobody asked for it.
+  /// False for an answer that the controller did not ask for.
   [[nodiscard]] bool take_answer(const Message& message, Time stamp) noexcept;
   [[nodiscard]] bool take_fault(const Fault& fault) noexcept;
   [[nodiscard]] bool is_awaited(std::size_t index, Time stamp) const noexcept;

@@ -210,7 +210,7 @@ int run_robot(RunOptions options, const MakeObserver& make_observer) {
   guard.start(guard_priority(file.realtime));
   loop.start();
   while (loop.ticks() == 0 && !loop.has_ended())
-    std::this_thread::sleep_for(kReportPeriod);  // till then no goal is taken
+    std::this_thread::sleep_for(kReportPeriod);  // no goal is accepted before the first tick
   for (const std::string& line : not_permitted) remark(line);
   remark("armed: " + in_short(proof) + "; ready for jaywalk goto X,Y [HEADING]");
   service.ready();

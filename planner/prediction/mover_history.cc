@@ -25,7 +25,7 @@ constexpr double kTurnSine = 0.43;  ///< of 0.45 rad, in half a second: it has t
 
 double speed_of(const Track& t) { return norm(t.velocity_in_map); }
 
-/// In one place, s; 0 where that is not known yet.
+/// Time that a track has stayed in one place, s; 0 where that is not known yet.
 double stood_s(const Track& t, Time now) { return t.still_since == kNever ? 0.0 : to_seconds(now - t.still_since); }
 
 bool is_as_wide_as_a_body(const Track& t) { return t.radius_m > kLeastBodyM && t.radius_m < kWidestBodyM; }

@@ -42,11 +42,10 @@ Scene drive_through(const std::string& name) {
 
 }  // namespace
 
-// The robot forced nobody in any of them when it was 0.38 m wide and braked at 1 m/s2. With the P3-DX's real outline
-// and ramps it forces 13 and drives 43 m (12 and 41 m without the price of turning): the test fails until that is
-// mended. A change of its motion that is no worse may still force somebody in a few, since each scene then runs
-// differently: three are allowed. The baseline planners force somebody in 15 or 16 of the 30 scenes and collide in 3 to
-// 13 (docs/explanation/results.md).
+// THIS TEST FAILS TODAY: the robot forces a mover in 13 scenes and drives 43 m (12 scenes and 41 m without the price of
+// turning). It forced none when the P3-DX's model was 0.38 m wide and braked at 1 m/s2. A change of its motion that is
+// no worse may still force somebody in a few, since each scene then runs differently: three are allowed. The baseline
+// planners force somebody in 15 or 16 of the 30 scenes and collide in 3 to 13 (docs/explanation/results.md).
 TEST_CASE("in thirty scenes of failed runs the robot collides with nobody, forces at most three movers and drives on",
           "[long]") {
   const std::vector<std::string> names = scenes();
