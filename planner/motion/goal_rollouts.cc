@@ -116,7 +116,7 @@ Situation GoalRollouts::situation(const Guide& guide, const PoseGuide& poses) co
           decision_.goal_heading,
           decision_.wants_heading,
           decision_.faces_rad,
-          body_.is_long && !setup_.constant_speed ? conflict_price() : price::kConflict,
+          conflict_price(),
           decision_.known_behind};
 }
 

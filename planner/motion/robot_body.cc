@@ -12,9 +12,10 @@ namespace {
 constexpr double kJustBelow = 1.0 - 1e-6;                 ///< single precision must not round a limit up
 constexpr float kMostTurn = 1.2F, kMostTurnAccel = 2.0F;  ///< comfort: a passenger's
 constexpr float kSlowing = 0.65F;
-constexpr float kMostJerk = 0.75F;       ///< SAFETY's 0.9 m/s3, measured behind the wheels' lag, over 0.1 s
-constexpr float kBackMps = 0.3F;         ///< SAFETY: where the scanner does not look
-constexpr double kNearlyRound_m = 0.15;  ///< between inscribed and circumscribed circle: one disc among movers
+constexpr float kMostJerk = 0.75F;  ///< SAFETY's 0.9 m/s3, measured behind the wheels' lag, over 0.1 s
+constexpr float kBackMps = 0.3F;    ///< SAFETY: where the scanner does not look
+/// Between inscribed and circumscribed circle: a wheelchair has 0.49 m, a P3-DX 0.16 m.
+constexpr double kLong_m = 0.25;
 constexpr double kOverSides_m = 0.02, kOverSidesAmongMovers_m = 0.06;
 
 constexpr double kSettled_m = 0.1;  ///< before a zone begins the drives have the last of the ramp behind them
@@ -23,18 +24,12 @@ constexpr double kSettled_m = 0.1;  ///< before a zone begins the drives have th
 
 RobotBody robot_body(const Footprint& f, const MotionLimits& l, const OfEach<LaserModel>& lasers,
                      double comfort_distance_m) {
-  const double outer = f.circumscribed_radius_m();
   RobotBody body;
   body.outline = BodyOutline::of(f);
   body.to_walls = BodyDiscs::covering(f, kOverSides_m);
   body.to_movers = BodyDiscs::covering(f, kOverSidesAmongMovers_m);
-  body.is_long = outer > f.inscribed_radius_m() + kNearlyRound_m;
-  if (!body.is_long) {
-    body.to_movers = {};
-    body.to_movers.count = 1;
-    body.to_movers.radius = static_cast<float>(outer);
-  }
-  body.rim_m = static_cast<float>(outer);
+  body.is_long = f.circumscribed_radius_m() > f.inscribed_radius_m() + kLong_m;
+  body.rim_m = static_cast<float>(f.circumscribed_radius_m());
   body.comfort_distance_m = static_cast<float>(comfort_distance_m);
   body.blind = BlindRim(f, lasers);
   const auto front = static_cast<float>(f.front_m), rear = static_cast<float>(-f.rear_m),

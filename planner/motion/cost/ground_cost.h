@@ -39,12 +39,11 @@ class WallCost {
     return price::kNearWall * close * close + by_wall;
   }
 
-  /// The price is for the way of the body's edge near surfaces: waiting there gains nothing. A long body is to leave a
-  /// wall that it stands beside (from 5 of 6 starts where the way alone counts), and pays for the time, too.
+  /// Time near surfaces is paid, so that the robot leaves a wall that it stands beside; by a stick the way of the
+  /// body's edge there, so that waiting costs nothing.
   [[nodiscard]] float paid_share(const RobotState& r) const noexcept {
-    if (s_.is_long() && !is_steered()) return 1.0F;
     const float rim = std::fabs(r.v) + std::fabs(r.w) * s_.body.rim_m;
-    return std::min(1.0F, rim / s_.body.bounds.speed);
+    return is_steered() ? std::min(1.0F, rim / s_.body.bounds.speed) : 1.0F;
   }
 
   [[nodiscard]] float clearance_at(const RobotState& r, const cell::Heading& along) const noexcept {
@@ -79,18 +78,17 @@ class UnseenCost {
     int parts = 0;
     for (const Place& p : s_.body.rim) {
       const float x = r.x + p.x * along.x - p.y * along.y, y = r.y + p.x * along.y + p.y * along.x;
-      parts += !(s_.is_long() && stood_on(x, y)) && s_.guide.is_unseen(x, y) ? 1 : 0;
+      parts += !stood_on(x, y) && s_.guide.is_unseen(x, y) ? 1 : 0;
     }
     if (parts == 0) return;
     const bool is_dared = s_.goes_by_poses() ? s_.poses->through_unseen : s_.guide.through_unseen;
-    const float turned = s_.is_long() ? price::kUnseenTurnedLong : price::kUnseenTurned;
-    const float price = is_dared ? price::kUnseenDared + turned * std::fabs(r.w)
+    const float price = is_dared ? price::kUnseenDared + price::kUnseenTurned * std::fabs(r.w)
                                  : price::kUnseen * cell::exp(-driven_m_ / price::kUnseenFadesM);
     cost.unseen += price * kStepS * static_cast<float>(parts) * 0.125F;
   }
 
  private:
-  /// What a long body stands on and turns over now counts as seen.
+  /// What the robot stands on and turns over now counts as seen.
   [[nodiscard]] bool stood_on(float x, float y) const noexcept {
     const float dx = x - s_.start.x, dy = y - s_.start.y;
     return dx * dx + dy * dy < price::kStoodOnM * price::kStoodOnM;

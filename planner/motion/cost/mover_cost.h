@@ -43,9 +43,8 @@ class MoverCost {
     for (std::size_t m = 0; m < s_.futures.movers(); ++m) {
       const MoverAt& at = s_.futures.at(at_step, m);
       const float radius = s_.futures.radius(m);
-      const float most =
-          std::max(at.spread + radius + kZoneM + discs.radius + 0.1F,
-                   at.spread + s_.body.comfort_distance_m + (s_.is_long() ? price::kBeforeStandingM : 0.0F));
+      const float most = at.spread + std::max(radius + kZoneM + discs.radius + 0.1F,
+                                              s_.body.comfort_distance_m + price::kBeforeStandingM);
       for (int k = 0; k < discs.count; ++k) {
         const Place disc = disc_at(r, along, k);
         const float dx = disc.x - at.mid_x, dy = disc.y - at.mid_y;
