@@ -25,8 +25,8 @@ struct BaseSetup {
 
 /// Two axes of ODrives of firmware 0.6 in velocity control, ramped by their own vel_ramp_rate.
 ///
-/// Arming proof: WatchdogProof, of one axis after the other, before the first command and after every return. The wheel
-/// of an ODrive whose watchdog expires, or that is set idle, coasts: the drive does not brake it.
+/// Arming proof: WatchdogProof, of one axis after the other, before the first command and after every return. An
+/// ODrive does not brake its wheel when its watchdog expires or when it is set idle: the wheel coasts.
 class OdriveBase final : public MotorPair {
  public:
   /// `bus` and `clock` outlive it. Throws StartupError where the setup cannot be.

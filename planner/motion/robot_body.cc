@@ -14,7 +14,7 @@ constexpr float kMostTurn = 1.2F, kMostTurnAccel = 2.0F;  ///< comfort: a passen
 constexpr float kSlowing = 0.65F;
 constexpr float kMostJerk = 0.75F;  ///< SAFETY's 0.9 m/s3, measured behind the wheels' lag, over 0.1 s
 constexpr float kBackMps = 0.3F;    ///< SAFETY: where the scanner does not look
-/// Between inscribed and circumscribed circle: a wheelchair has 0.49 m, a P3-DX 0.16 m.
+/// A body is long from this difference of its circumscribed and inscribed radius, m: wheelchair 0.49, P3-DX 0.16.
 constexpr double kLong_m = 0.25;
 constexpr double kOverSides_m = 0.02, kOverSidesAmongMovers_m = 0.06;
 

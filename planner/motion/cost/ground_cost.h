@@ -39,8 +39,8 @@ class WallCost {
     return price::kNearWall * close * close + by_wall;
   }
 
-  /// Time near surfaces is paid, so that the robot leaves a wall that it stands beside; by a stick the way of the
-  /// body's edge there, so that waiting costs nothing.
+  /// Share of the price near surfaces: 1 on the way to a goal, so that the robot leaves a wall that it stands beside;
+  /// in proportion to the speed of the body's edge while a stick steers, so that waiting costs nothing.
   [[nodiscard]] float paid_share(const RobotState& r) const noexcept {
     const float rim = std::fabs(r.v) + std::fabs(r.w) * s_.body.rim_m;
     return is_steered() ? std::min(1.0F, rim / s_.body.bounds.speed) : 1.0F;
@@ -88,7 +88,7 @@ class UnseenCost {
   }
 
  private:
-  /// What the robot stands on and turns over now counts as seen.
+  /// Whether a place is within kStoodOnM of the axle at the start: such ground counts as seen.
   [[nodiscard]] bool stood_on(float x, float y) const noexcept {
     const float dx = x - s_.start.x, dy = y - s_.start.y;
     return dx * dx + dy * dy < price::kStoodOnM * price::kStoodOnM;

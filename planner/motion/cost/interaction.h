@@ -16,7 +16,7 @@ inline constexpr float kZoneSideM = 0.013F;
 struct Interaction {
   std::uint32_t met = 0;  ///< touched, or in the quarter circle before the mover while that walks
   std::uint32_t touched = 0;
-  float nearness = 0.0F;  ///< a sum over futures, m2
+  float nearness = 0.0F;  ///< to those that walk, a sum over futures, m2
   float beside = 0.0F;    ///< the same of those that stand
   float too_fast = 0.0F;  ///< beside it while it stands: m/s over what is polite, a sum over futures
 };

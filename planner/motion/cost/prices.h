@@ -11,9 +11,10 @@ namespace jaywalk::motion::price {
 /// 48 runs reached, 35 without the second). Half of it after lost time: 12 of 37 runs reached, not 15, and 17 forced a
 /// mover, not 8 (decision motion-prices).
 inline constexpr float kConflict = 200.0F;
-/// Being in a mover's way: as many seconds as waiting would take to cause it, from kLeastConflict to kConflict. Movers
-/// are met at their speeds within kAboutM, over a strip of kMetWidthM. kLeastConflict at 15, 100, 140, 200 (16 movers,
-/// seeds 9400 to 9431): 30, 31, 31, 31 of 32 runs strict, 120, 124, 126, 130 s.
+/// Conflict's price, s: the time in which a waiting robot would be in a mover's way once, from kLeastConflict to
+/// kConflict; movers walk at their speeds within kAboutM, over a strip of kMetWidthM. A prototype in which walls were
+/// paid by the way (16 movers, maps 1 to 4, seeds 9400 to 9431) kept the strict rule in 30, 31, 31, 31 of 32 runs with
+/// kLeastConflict at 15, 100, 140, 200, in 120, 124, 126, 130 s.
 inline constexpr float kLeastConflict = 100.0F, kAboutM = 5.0F, kMetWidthM = 1.6F;
 /// Share of the contact price at rest, and the speed of the body's edge, m/s, from which it is whole; linear between.
 /// The same for forcing stopped the robot in people's lanes (11 of 16 runs strict, not 13).
