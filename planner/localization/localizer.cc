@@ -267,7 +267,7 @@ void Localizer::State::blend(const OutsideFix& fix) noexcept {
   if (!is_usable(fix) || !odometry.remembers(fix.stamp)) return;
   const Pose2 odom_from_robot = odometry.at(fix.stamp);
   const PoseBelief predicted{map_from_odom * odom_from_robot, covariance};
-  const FixGate::Verdict verdict = fix_gate.judge(predicted, fix, odom_from_robot);
+  const FixGate::Verdict verdict = fix_gate.judge(predicted, doubt.is_doubtful(), fix, odom_from_robot);
   if (verdict == FixGate::Verdict::kPassOver) return;
   const bool lost = verdict == FixGate::Verdict::kTake;
   const PoseBelief now = lost ? PoseBelief{fix.map_from_robot, covariance_of(fix)} : blended(predicted, fix);

@@ -49,10 +49,10 @@ bool is_usable(const OutsideFix& fix) noexcept {
          fix.heading_std_rad <= kMostTurnedRad;
 }
 
-FixGate::Verdict FixGate::judge(const PoseBelief& predicted, const OutsideFix& fix,
+FixGate::Verdict FixGate::judge(const PoseBelief& predicted, bool in_doubt, const OutsideFix& fix,
                                 const Pose2& odom_from_robot) noexcept {
   const Eigen::Matrix3d doubt = covariance_of(fix);
-  if (nis(predicted.map_from_robot, fix.map_from_robot, predicted.covariance + doubt) < kGateNis) {
+  if (!in_doubt && nis(predicted.map_from_robot, fix.map_from_robot, predicted.covariance + doubt) < kGateNis) {
     agreeing_ = 0;
     return Verdict::kBlend;
   }

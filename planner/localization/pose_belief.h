@@ -74,8 +74,9 @@ inline constexpr double kLeastHeadingVar = 0.002 * 0.002;   // rad2
 class FixGate {
  public:
   enum class Verdict : std::uint8_t { kBlend, kPassOver, kTake };
-  /// `odom_from_robot`: when the fix was taken.
-  [[nodiscard]] Verdict judge(const PoseBelief& predicted, const OutsideFix& fix,
+  /// `odom_from_robot`: when the fix was taken. In doubt no fix belongs to what is believed, however near: blended with
+  /// a covariance from before the robot was carried, a fix 0.23 rad off left the heading where it was.
+  [[nodiscard]] Verdict judge(const PoseBelief& predicted, bool in_doubt, const OutsideFix& fix,
                               const Pose2& odom_from_robot) noexcept;
 
  private:

@@ -89,3 +89,24 @@ TEST_CASE("one fix that is far off is a mistake, three that agree as the robot d
   CHECK(found.map_from_robot.y == Approx(1.0));
   CHECK(found.position_std_m == Approx(0.05));
 }
+
+TEST_CASE("of a robot that was carried fixes near where it believed to be tell the pose, whatever it was sure of") {
+  Localizer localizer({.map_from_robot_at_start = {}, .drive = kDrive, .robot_from_laser = {}, .match_scans = false});
+  const EvidenceMap still(64, 0.1, {});
+  const LaserScan none;
+  WheelState wheels{.stamp = time_from_seconds(0.0), .sequence = 1};
+  (void)localizer.update(wheels, none, {}, still, {});
+  localizer.carried();
+  OutsideFix fix;
+  fix.stamp = wheels.stamp;
+  fix.has_pose = true;
+  fix.map_from_robot = {0.0, 0.0, 0.2};  // two standard deviations
+  fix.position_std_m = fix.heading_std_rad = 0.1;
+  PoseEstimate last;
+  for (fix.sequence = 1; fix.sequence <= 3; ++fix.sequence) {
+    last = localizer.update(wheels, none, fix, still, {});
+    CHECK(last.doubtful == (fix.sequence < 3));
+  }
+  CHECK(last.map_from_robot.heading == Approx(0.2));
+  CHECK(last.heading_std_rad == Approx(0.1));
+}
