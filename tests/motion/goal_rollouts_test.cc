@@ -128,6 +128,17 @@ TEST_CASE("the time to the goal is progress, and anew for each goal") {
   CHECK_FALSE(beside_a_walker.planner().decision().stall.is_alone);
 }
 
+TEST_CASE("a wall that comes to be known makes the way longer, and no stall") {
+  test::Guided ground;
+  Drive drive(ground, {4.0, 0.0});
+  (void)drive.run(2.0);
+  const float least_s = drive.planner().decision().stall.least_to_go_s;
+  ground.wall({2.5, -3.0}, {2.5, 2.0});
+  (void)drive.run(3.0);
+  CHECK(drive.planner().decision().stall.least_to_go_s > least_s);
+  CHECK(drive.planner().decision().stall.for_s < 1.5F);
+}
+
 TEST_CASE("it turns first where the goal lies behind") {
   test::Guided g;
   Drive drive(g, {-3.0, 0.5});
