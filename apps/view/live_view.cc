@@ -177,7 +177,8 @@ void LiveView::show(const view::ViewSnapshot& snapshot, const std::string& ended
   const std::uint32_t wanted = server_->wanted();
   if (wanted != 0) server_->push_time(t.now);
   topics_.add(t, {snapshot.tracks.begin(), snapshot.tracks.size()}, path_, model_, wanted);
-  if ((wanted >> joints_ & 1U) != 0) server_->push(joints_, t.now, view::joint_states(t.wheels, t.now));
+  if ((wanted >> joints_ & 1U) != 0 && t.wheels.sequence != 0)
+    server_->push(joints_, t.now, view::joint_states(t.wheels, t.now));
   const auto now = std::chrono::steady_clock::now();
   const bool is_due = server_->has_pages() && (at_once || !ended.empty() || now - pushed_ >= kPushEvery);
   if (!keeps_ticks_ && !is_due) return static_cast<void>(++tick_);
