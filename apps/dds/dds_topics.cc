@@ -39,24 +39,25 @@ std::string in_cdr(const Message& message) {
 }
 
 struct PassedOn {
-  exchange::RosTopicNumber number;
+  const char* topic;
   const dds_topic_descriptor_t* type;
   bool kept = false;  ///< for readers that come later
-  [[nodiscard]] const char* topic() const { return exchange::kRosTopics[number].name; }
 };
-const std::array<PassedOn, 8> kPassedOn{{{exchange::kScan, &sensor_msgs_msg_dds__LaserScan__desc},
-                                         {exchange::kOdom, &nav_msgs_msg_dds__Odometry__desc},
-                                         {exchange::kTf, &tf2_msgs_msg_dds__TFMessage__desc},
-                                         {exchange::kTfStatic, &tf2_msgs_msg_dds__TFMessage__desc, true},
-                                         {exchange::kMap, &nav_msgs_msg_dds__OccupancyGrid__desc, true},
-                                         {exchange::kPlan, &nav_msgs_msg_dds__Path__desc},
-                                         {exchange::kTracks, &visualization_msgs_msg_dds__MarkerArray__desc},
-                                         {exchange::kClock, &rosgraph_msgs_msg_dds__Clock__desc}}};
+constexpr const char* name_of(exchange::RosTopicNumber number) { return exchange::kRosTopics[number].name; }
+const std::array<PassedOn, 9> kPassedOn{{{name_of(exchange::kScan), &sensor_msgs_msg_dds__LaserScan__desc},
+                                         {name_of(exchange::kOdom), &nav_msgs_msg_dds__Odometry__desc},
+                                         {name_of(exchange::kTf), &tf2_msgs_msg_dds__TFMessage__desc},
+                                         {name_of(exchange::kTfStatic), &tf2_msgs_msg_dds__TFMessage__desc, true},
+                                         {name_of(exchange::kMap), &nav_msgs_msg_dds__OccupancyGrid__desc, true},
+                                         {name_of(exchange::kPlan), &nav_msgs_msg_dds__Path__desc},
+                                         {name_of(exchange::kTracks), &visualization_msgs_msg_dds__MarkerArray__desc},
+                                         {name_of(exchange::kClock), &rosgraph_msgs_msg_dds__Clock__desc},
+                                         {"/joint_states", &sensor_msgs_msg_dds__JointState__desc}}};
 /// How a topic is published; null where it is not. "/scan_rear", the topic of a named scanner, is published as "/scan".
 const PassedOn* passed_on(const std::string& topic) {
   for (const PassedOn& one : kPassedOn)
-    if (topic == one.topic()) return &one;
-  return topic.starts_with("/scan_") ? passed_on(exchange::kRosTopics[exchange::kScan].name) : nullptr;
+    if (topic == one.topic) return &one;
+  return topic.starts_with("/scan_") ? passed_on(name_of(exchange::kScan)) : nullptr;
 }
 
 constexpr std::size_t kEncapsulation = 4;
@@ -133,7 +134,7 @@ std::optional<PoseOrder> PoseReader::take() {
 DdsTopics::DdsTopics(std::uint32_t domain, bool takes_goals, const std::string& space)
     : participant_(checked(dds_create_participant(domain, nullptr, nullptr), "no participant")), space_(space) {
   for (const PassedOn& one : kPassedOn)
-    writers_[one.topic()] = make_writer(participant_, *one.type, space + one.topic(), qos_of(one.kept));
+    writers_[one.topic] = make_writer(participant_, *one.type, space + one.topic, qos_of(one.kept));
   if (takes_goals) poses_.emplace(participant_);
 }
 

@@ -90,9 +90,9 @@ void pass_robot_on(const Options& options) {
 int main(int argc, char** argv) {
   Options options;
   CLI::App app{
-      "jaywalk_dds: a run's topics on DDS (rt/scan, rt/odom, rt/tf, rt/map, rt/plan, rt/tracks), or a robot's laser "
-      "and "
-      "base from it; with --goals, goals from rt/goal_pose, its place from rt/initialpose. Not yet tried with ROS 2 "
+      "jaywalk_dds: a run's topics on DDS (rt/scan, rt/odom, rt/tf, rt/map, rt/plan, rt/tracks, rt/joint_states), or "
+      "a robot's laser and base from it; with --goals, goals from rt/goal_pose, its place from rt/initialpose. Not yet "
+      "tried with ROS 2 "
       "itself"};
   app.add_option("from", options.from,
                  "What a run with --view prints, http://127.0.0.1:PORT/ with its token; or ROBOT.toml with kind = "

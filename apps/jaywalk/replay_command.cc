@@ -96,13 +96,12 @@ class ReplayView {
   ReplayView(const ReplayOptions& options, const LoopRunner& runner) : runner_(runner) {
     if (!options.view) return;
     live_ = std::make_unique<LiveView>(
-        *options.view, runner.setup().model, true,
+        *options.view, runner.setup(), true,
         [](const view::ViewOrder&, const view::Reply& reply) { reply("a recording takes no orders\n"); });
     live_->begin({.title = options.logs[0].filename().string(),
                   .known = runner.setup().known_map.get(),
                   .takes_goals = false,
-                  .takes_pauses = false},
-                 runner.setup().tick());
+                  .takes_pauses = false});
   }
   /// After a tick. A subscriber to the stream of messages gets it at the recording's own pace.
   void follow() {

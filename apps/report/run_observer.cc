@@ -39,6 +39,7 @@ std::filesystem::path RunPicture::save(const std::filesystem::path& folder, cons
   scene.goal_tolerance_m = setup.goal_tolerance_m;
   if (run.wanted.wants_heading()) scene.goal_heading_rad = run.wanted.goal_heading_rad;
   scene.footprint = setup.model.footprint;
+  scene.robot_from_laser = setup.model.laser.robot_from_laser;
   scene.extent = extent_of(scene);
   draw_svg(scene, (folder / "run.svg").string());
   if (!can_draw_pictures()) return folder / "run.svg";

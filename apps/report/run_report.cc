@@ -228,7 +228,7 @@ void RunReport::add_plan(const PlanTook& took) {
 
 void RunReport::add_way(const Pose2& pose, const RunSample& sample) {
   shape_.add(pose.position());
-  driven_.add(sample.record.now, pose);
+  driven_.add(sample.record.now, pose, sample.record.scan);
   if (!sample.record.input.has_goal) return;
   const double t_s = to_seconds(sample.now);
   const Vec2 goal = sample.record.input.goal_in_map;

@@ -13,7 +13,7 @@ using Json = nlohmann::json;
 
 // Opcodes of binary frames.
 constexpr char kMessageData = 1;  ///< either way
-constexpr char kServiceCall = 2, kServiceAnswer = 3;
+constexpr char kTime = 2, kServiceCall = 2, kServiceAnswer = 3;
 constexpr std::size_t kCallHead = 13;  ///< opcode, service, call, letters of its encoding
 constexpr std::size_t kMostNumbers = 64;
 constexpr std::size_t kMostShown = 40;  ///< letters of what a client said
@@ -27,10 +27,14 @@ std::string status(const std::string& said, int level) {
 
 std::string warning(const std::string& said) { return status(said, kWarning); }
 
-std::string little_endian(std::uint64_t number, std::size_t count) {
-  std::string bytes(count, '\0');
-  for (std::size_t i = 0; i < count; ++i) bytes[i] = static_cast<char>((number >> (8 * i)) & 0xFFU);
-  return bytes;
+/// A number's bytes: all our machines are little-endian.
+template <class Number>
+std::string little_endian(Number number) {
+  return {reinterpret_cast<const char*>(&number), sizeof number};
+}
+
+std::string nanoseconds(Time stamp) {
+  return little_endian(std::max<std::int64_t>(stamp.time_since_epoch().count(), 0));
 }
 
 /// A whole number that fits; nothing otherwise.
@@ -50,6 +54,19 @@ std::string text_in(const Json& json, const char* key) {
 Json list_in(const Json& json, const char* key) {
   const auto found = json.find(key);
   return found != json.end() && found->is_array() ? *found : Json::array();
+}
+
+/// Answers with the parameters that are named, or with all: what was to be set shows its old value again.
+std::string values(std::span<const FoxgloveParameter> parameters, const Json& asked) {
+  const Json names = list_in(asked, "parameterNames");
+  Json listed = Json::array();
+  for (const auto& [name, value] : parameters) {
+    if (names.empty() || std::find(names.begin(), names.end(), Json(name)) != names.end())
+      listed.push_back({{"name", name}, {"type", "float64"}, {"value", value}});
+  }
+  Json answer{{"op", "parameterValues"}, {"parameters", listed}};
+  if (asked.contains("id")) answer["id"] = text_in(asked, "id");
+  return dumped(answer);
 }
 
 Json message_type(const char* name, const char* schema) {
@@ -107,7 +124,7 @@ std::vector<std::string> foxglove_greeting(std::span<const FoxgloveChannel> chan
   }
   return {dumped({{"op", "serverInfo"},
                   {"name", "jaywalk"},
-                  {"capabilities", {"clientPublish", "services"}},
+                  {"capabilities", {"clientPublish", "parameters", "services", "time"}},
                   {"supportedEncodings", {"cdr", "json"}},
                   {"metadata", Json::object()}}),
           dumped({{"op", "advertise"}, {"channels", listed}}),
@@ -157,6 +174,8 @@ FoxgloveSession::Outcome FoxgloveSession::take_text(std::string_view text) {
   } else if (op == "unadvertise") {
     for (const Json& id : list_in(json, "channelIds"))
       if (id.is_number_unsigned()) published_.erase(id.get<std::uint32_t>());
+  } else if (op == "getParameters" || op == "setParameters") {
+    outcome.status = values(parameters_, json);
   } else {
     outcome.status = warning("not served: " + op.substr(0, kMostShown));
   }
@@ -193,8 +212,9 @@ std::uint32_t FoxgloveSession::wanted() const {
 }
 
 std::string foxglove_head(std::uint32_t subscription, Time stamp) {
-  const auto ns = static_cast<std::uint64_t>(std::max<std::int64_t>(stamp.time_since_epoch().count(), 0));
-  return std::string(1, kMessageData) + little_endian(subscription, 4) + little_endian(ns, 8);
+  return kMessageData + little_endian(subscription) + nanoseconds(stamp);
 }
+
+std::string foxglove_time(Time now) { return kTime + nanoseconds(now); }
 
 }  // namespace jaywalk::view

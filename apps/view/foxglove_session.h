@@ -19,6 +19,12 @@ struct FoxgloveChannel {
   std::string schema;  ///< its definition as ROS 2 writes it
 };
 
+/// A setting of the robot: read, never set.
+struct FoxgloveParameter {
+  std::string name;  ///< "/jaywalk.max_speed_mps", as ROS 2 names a node's
+  double value = 0.0;
+};
+
 /// The first of a handshake's Sec-WebSocket-Protocol that is spoken here; empty where none is.
 [[nodiscard]] std::string foxglove_subprotocol(std::string_view offered);
 
@@ -29,7 +35,9 @@ struct FoxgloveChannel {
 /// One client's subscriptions and what it publishes. Thread: the server's.
 class FoxgloveSession {
  public:
-  explicit FoxgloveSession(std::size_t channels) : channels_(channels) {}
+  /// `parameters` outlive it.
+  explicit FoxgloveSession(std::size_t channels, std::span<const FoxgloveParameter> parameters = {})
+      : channels_(channels), parameters_(parameters) {}
 
   /// What a client's message asks for: an order of the live page's (view_orders.h), or what to tell it.
   struct Outcome {
@@ -51,6 +59,7 @@ class FoxgloveSession {
     std::string topic, encoding;
   };
   std::size_t channels_;
+  std::span<const FoxgloveParameter> parameters_;
   std::map<std::size_t, std::uint32_t> subscriptions_;  ///< the client's number of a channel, one each
   std::map<std::uint32_t, Published> published_;        ///< by the client's number
 };
@@ -63,5 +72,7 @@ class FoxgloveSession {
 
 /// What stands before a message in a binary frame of Message Data.
 [[nodiscard]] std::string foxglove_head(std::uint32_t subscription, Time stamp);
+/// The binary frame that tells the run's clock.
+[[nodiscard]] std::string foxglove_time(Time now);
 
 }  // namespace jaywalk::view

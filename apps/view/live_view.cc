@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "apps/formats/ros_messages.h"
+#include "apps/view/joint_states.h"
 
 namespace jaywalk::view {
 
@@ -85,7 +86,20 @@ constexpr std::size_t kMostStripTicks = 2000;  // more than a screen has columns
 std::vector<view::FoxgloveChannel> channels_of(const RobotModel& model) {
   std::vector<view::FoxgloveChannel> all;
   for (const auto& [name, type] : exchange::topics_of(model)) all.push_back({name, type, exchange::ros_schema(type)});
+  all.push_back(view::joint_channel());
   return all;
+}
+
+std::vector<view::FoxgloveParameter> parameters_of(const ControlSetup& setup) {
+  const RobotModel& model = setup.model;
+  return {{"/jaywalk.rate_hz", setup.rate_hz},
+          {"/jaywalk.max_speed_mps", model.limits.max_speed_mps},
+          {"/jaywalk.brake_mps2", model.limits.brake_mps2},
+          {"/jaywalk.track_width_m", model.drive.track_width_m},
+          {"/jaywalk.wheel_radius_m", model.drive.wheel_radius_m},
+          {"/jaywalk.front_m", model.footprint.front_m},
+          {"/jaywalk.rear_m", model.footprint.rear_m},
+          {"/jaywalk.half_width_m", model.footprint.half_width_m}};
 }
 
 constexpr auto kPausedLook = std::chrono::milliseconds(5);  // at the page's orders while paused
@@ -93,13 +107,17 @@ constexpr int kLooksUntilTold = 20;
 
 }  // namespace
 
-LiveView::LiveView(const view::ViewAddress& where, const RobotModel& model, bool keeps_ticks, Obey obey)
+LiveView::LiveView(const view::ViewAddress& where, const ControlSetup& setup, bool keeps_ticks, Obey obey)
     : obey_(std::move(obey)),
       keeps_ticks_(keeps_ticks),
-      model_(model),
+      model_(setup.model),
+      tick_s_(to_seconds(setup.tick())),
+      zone_(setup.model, setup.tick()),
+      joints_(exchange::topics_of(setup.model).size()),
       server_(view::ViewServer::serve(
           where, {.on_order = [this](std::string_view text, const view::Reply& reply) { answer(text, reply); },
-                  .channels = channels_of(model)})),
+                  .channels = channels_of(setup.model),
+                  .parameters = parameters_of(setup)})),
       topics_([this](std::size_t channel, Time stamp, std::string message) {
         server_->push(channel, stamp, std::move(message));
       }) {
@@ -122,11 +140,10 @@ void LiveView::answer(std::string_view text, const view::Reply& reply) {
     reply(store_.then(asked["tick"].get<std::uint64_t>()));
 }
 
-void LiveView::begin(view::HelloScene hello, Duration tick) {
-  zone_.emplace(model_, tick);
+void LiveView::begin(view::HelloScene hello) {
   hello.model = model_;
   hello.keeps_ticks = keeps_ticks_;
-  hello.tick_s = to_seconds(tick);
+  hello.tick_s = tick_s_;
   hello_ = to_json(hello);
   server_->push(view::MessageKind::kHello, hello_);
 }
@@ -157,7 +174,11 @@ void LiveView::show(const view::FieldPicture& field) {
 void LiveView::show(const view::ViewSnapshot& snapshot, const std::string& ended, bool at_once) {
   const TickRecord& t = snapshot.record;
   if (path_.stamp != snapshot.plan.stamp) keep_path(snapshot.plan, path_);
-  topics_.add(t, {snapshot.tracks.begin(), snapshot.tracks.size()}, path_, model_, server_->wanted());
+  const std::uint32_t wanted = server_->wanted();
+  if (wanted != 0) server_->push_time(t.now);
+  topics_.add(t, {snapshot.tracks.begin(), snapshot.tracks.size()}, path_, model_, wanted);
+  if ((wanted >> joints_ & 1U) != 0 && t.wheels.sequence != 0)
+    server_->push(joints_, t.now, view::joint_states(t.wheels, t.now));
   const auto now = std::chrono::steady_clock::now();
   const bool is_due = server_->has_pages() && (at_once || !ended.empty() || now - pushed_ >= kPushEvery);
   if (!keeps_ticks_ && !is_due) return static_cast<void>(++tick_);
@@ -169,7 +190,7 @@ void LiveView::show(const view::ViewSnapshot& snapshot, const std::string& ended
     if (keeps_ticks_) store_.add_scene(scene_);
   }
   const std::string head = view::frame_head(
-      {.tick = tick_++, .record = t, .zone = zone_->at(t), .speed_mps = snapshot.twist.v_mps, .ended = ended});
+      {.tick = tick_++, .record = t, .zone = zone_.at(t), .speed_mps = snapshot.twist.v_mps, .ended = ended});
   if (keeps_ticks_) {
     store_.add({.t_s = to_seconds(t.now),
                 .wanted_mps = t.wanted.v_mps,
@@ -202,7 +223,7 @@ SimView::SimView(const view::ViewAddress& where, const ControlSetup& setup, Oper
     : panel_(panel),
       takes_goals_(!setup.keeps_speed()),
       tick_(setup.tick()),
-      live_(where, setup.model, true,
+      live_(where, setup, true,
             [this](const view::ViewOrder& order, const view::Reply& reply) { take(order, reply); }) {}
 
 void SimView::take(const view::ViewOrder& order, const view::Reply& reply) {
@@ -214,7 +235,7 @@ void SimView::take(const view::ViewOrder& order, const view::Reply& reply) {
 }
 
 void SimView::begin(const std::string& title, std::span<const sim::WallSegment> walls) {
-  live_.begin({.title = title, .walls = walls, .takes_goals = takes_goals_}, tick_);
+  live_.begin({.title = title, .walls = walls, .takes_goals = takes_goals_});
 }
 
 void SimView::follow(const LoopRunner& runner, const std::string& ended, const Interruption& interruption) {

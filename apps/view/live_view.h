@@ -86,10 +86,10 @@ class LiveView {
 
   /// `keeps_ticks`: any tick can be asked for, as long as the program runs. Prints the line `view: http://...`, with
   /// TLS its certificate's fingerprint too. Throws StartupError where the address cannot be served.
-  LiveView(const view::ViewAddress& where, const RobotModel& model, bool keeps_ticks, Obey obey);
+  LiveView(const view::ViewAddress& where, const ControlSetup& setup, bool keeps_ticks, Obey obey);
 
   /// Before the first tick. `model`, `keeps_ticks` and `tick_s` of `hello` are set here.
-  void begin(view::HelloScene hello, Duration tick);
+  void begin(view::HelloScene hello);
   /// After each tick of a runner that this thread drives. `at_once`: whatever was shown just now.
   void follow(const LoopRunner& runner, const std::string& ended, bool at_once = false);
 
@@ -120,13 +120,15 @@ class LiveView {
   bool keeps_ticks_;
   view::FrameStore store_;
   RobotModel model_;
-  std::optional<view::ShownStopZone> zone_;
+  double tick_s_;
+  view::ShownStopZone zone_;
   view::ViewSnapshot snapshot_;
   std::string hello_, scene_;
   std::uint32_t scans_shown_ = 0, plan_shown_ = 0;  ///< TickRecord::scan_count(); the plan's sequence
   std::uint64_t tick_ = 0, field_ = 0;
   Time field_shown_ = kNever;
   std::chrono::steady_clock::time_point pushed_{}, seen_{};
+  std::size_t joints_;  ///< channel
   std::unique_ptr<view::ViewServer> server_;
   exchange::RosTopics topics_;
   PlannedPath path_;  ///< of the newest plan

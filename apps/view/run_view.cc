@@ -24,12 +24,12 @@ RunView::RunView(const view::ViewAddress& where, const std::filesystem::path& co
                  const ControlSetup& setup, const EvidenceMap& map)
     : control_socket_(control_socket),
       planner_tap_(map),
-      live_(with_token(where), setup.model, false,
+      live_(with_token(where), setup, false,
             [this](const view::ViewOrder& order, const view::Reply& reply) { obey(order, reply); }),
       address_file_(control_socket, live_.url()) {
   boost::asio::post(stops_, view::be_in_background);
   boost::asio::post(goals_, view::be_in_background);
-  live_.begin({.title = title, .known = setup.known_map.get(), .takes_pauses = false}, setup.tick());
+  live_.begin({.title = title, .known = setup.known_map.get(), .takes_pauses = false});
 }
 
 void RunView::follow() {

@@ -200,7 +200,7 @@ void ViewClient::upgrade(const std::string& subprotocol) {
     static_cast<void>(house_.enter(*this, Stage::kIsAnswered));
     return respond(Status::service_unavailable, "text/plain", "as many look as may: close a page\n");
   }
-  if (!subprotocol.empty()) foxglove_.emplace(house_.door.channels.size());
+  if (!subprotocol.empty()) foxglove_.emplace(house_.door.channels.size(), house_.door.parameters);
   socket_.set_option(websocket::stream_base::timeout{kAnswered, kQuiet, true});
   socket_.set_option(websocket::stream_base::decorator([subprotocol](websocket::response_type& response) {
     if (!subprotocol.empty()) response.set(http::field::sec_websocket_protocol, subprotocol);
@@ -254,9 +254,10 @@ void ViewClient::obey(const FoxgloveSession::Outcome& outcome) {
 
 void ViewClient::offer(const ViewMessage& message) {
   if (stage_ != Stage::kLooks || request_) return;
-  const bool is_topic = message.kind == MessageKind::kTopic;
-  if (is_topic != foxglove_.has_value()) return;
-  if (!is_topic && (message.kind != MessageKind::kFrame || outbox_.is_empty())) return send({"", message.text});
+  const bool is_topic = message.kind == MessageKind::kTopic, is_page = message.kind < MessageKind::kTopic;
+  if (is_page == foxglove_.has_value()) return;
+  if (is_page && (message.kind != MessageKind::kFrame || outbox_.is_empty())) return send({"", message.text});
+  if (message.kind == MessageKind::kTime) return send({foxglove_time(message.stamp), message.text, false});
   if (const auto wanted = is_topic ? foxglove_->subscription(message.channel) : std::nullopt)
     send({foxglove_head(*wanted, message.stamp), message.text, false});
 }

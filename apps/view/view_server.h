@@ -25,6 +25,7 @@ struct ViewDoor {
   /// A JSON text of the page's, or a stop or a goal of others as such. Called on the server's thread: must not wait.
   std::function<void(std::string_view, Reply)> on_order;
   std::vector<FoxgloveChannel> channels = {};  ///< at most 32; numbered from 0
+  std::vector<FoxgloveParameter> parameters = {};
 };
 
 enum class MessageKind : std::uint8_t {
@@ -32,7 +33,8 @@ enum class MessageKind : std::uint8_t {
   kField,  ///< the same
   kFrame,  ///< of this moment: left out for a client that has not yet taken the one before
   kEnd,    ///< a run's last frame: said to everybody, however slow
-  kTopic   ///< a message of a Foxglove channel
+  kTopic,  ///< a message of a Foxglove channel
+  kTime    ///< the run's clock, for Foxglove's clients
 };
 
 struct ViewMessage {
@@ -68,6 +70,7 @@ class ViewServer {
   void push(std::size_t channel, Time stamp, std::string text) {
     push(MessageKind::kTopic, channel, stamp, std::move(text));
   }
+  void push_time(Time now) { push(MessageKind::kTime, 0, now, ""); }
   /// Pages and subscribers that look now.
   [[nodiscard]] int viewers() const noexcept { return viewers_; }
   [[nodiscard]] bool has_pages() const noexcept { return has_pages_; }
@@ -79,7 +82,7 @@ class ViewServer {
   [[nodiscard]] const std::string& fingerprint() const noexcept { return fingerprint_; }
 
  protected:
-  Ring<ViewMessage, 64> ring_;  ///< a tick has ten topics and a frame at most
+  Ring<ViewMessage, 64> ring_;  ///< a tick has 16 topics, its time and a frame at most
   std::atomic<int> viewers_{0};
   std::atomic<bool> has_pages_{false};
   std::atomic<std::uint32_t> wanted_{0};

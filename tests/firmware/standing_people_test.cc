@@ -37,10 +37,9 @@ TEST_CASE("a robot 0.38 m wide keeps clear of somebody who stands in a passage, 
   RobotModel narrow = p3dx();
   narrow.footprint = {0.2275, 0.2275, 0.1905};
   int passed = 0;
-  for (std::uint64_t seed = 1; seed <= 24; ++seed) {
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
     CAPTURE(seed);
     const Passing passing = pass(narrow, seed);
-    std::printf("seed %d nearest %.3f beside %.3f s %.1f arrived %d\n", static_cast<int>(seed), passing.nearest_m, passing.beside_mps, passing.seconds, int{passing.arrived});
     CHECK(passing.arrived);
     CHECK(passing.contacts == 0);
     CHECK(passing.beside_mps < 0.35);  // politely: 0.2 m/s, or the gap within a second

@@ -9,7 +9,7 @@ import { createInterface } from "node:readline";
 import WebSocket from "ws";
 
 const [jaywalk, scenario, out] = process.argv.slice(2);
-const topics = ["/scan", "/points", "/odom", "/tf", "/map", "/plan", "/goal_pose", "/tracks", "/diagnostics", "/cmd_vel", "/tf_static", "/clock"];
+const topics = ["/scan", "/points", "/odom", "/tf", "/map", "/plan", "/goal_pose", "/tracks", "/diagnostics", "/cmd_vel", "/tf_static", "/clock", "/joint_states"];
 const fail = (what) => { console.log(`FAILED: ${what}`); process.exit(1); };
 const run = spawn(jaywalk, ["sim", scenario, "--view", "--until-arrived", "--out", out], { stdio: ["ignore", "pipe", "inherit"] });
 process.on("exit", () => run.kill("SIGKILL"));

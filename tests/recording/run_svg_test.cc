@@ -68,8 +68,8 @@ TEST_CASE("a moving picture is XML without a script, and repeats") {
   CHECK(svg.find("<script") == std::string::npos);
   CHECK(svg.find('\x1b') == std::string::npos);
   CHECK(svg.find(" on") == std::string::npos);
-  // Five movers, the robot's place and heading, its way, the clock.
-  CHECK(count(svg, "repeatCount=\"indefinite\"") == 9);
+  // Five movers and where they are expected, the robot's place and heading, its way, the clock.
+  CHECK(count(svg, "repeatCount=\"indefinite\"") == 14);
   CHECK(svg == svg_of(scene));
   CHECK(count(svg, "<text font-size=\"22\"") == 5);  // each mover has its number
 }
@@ -80,6 +80,38 @@ TEST_CASE("the robot ends where the run ended, at the goal's side of the map") {
   const Vec2 end = last_place(svg_of(made_scene()), "robot");
   CHECK(end.x == 1378);
   CHECK(end.y == 415);
+}
+
+TEST_CASE("a moving picture shows where bodies are expected in 2 s, and the ground that the laser sees") {
+  PictureScene scene;
+  scene.walls = {{{0, 0}, {10, 0}}, {{10, 0}, {10, 5}}};
+  // 0.5 m/s towards the wall at x = 10, which it touches 0.8 m on.
+  Trail trail{7, 0.2, false, {}};
+  for (int k = 0; k < 9; ++k) trail.points.push_back({time_from_seconds(0.4 * k), {7.4 + 0.2 * k, 2.0}});
+  scene.movers = {trail};
+  LaserScan scan;
+  scan.sequence = 1, scan.beam_count = 79, scan.first_angle_rad = -1.56F, scan.angle_step_rad = 0.04F;
+  scan.range_max_m = 9.0F, scan.range_m.fill(2.0F);
+  scan.range_m[40] = 12.0F;  // at 0.04 rad nothing in reach
+  DrivenWay way;
+  for (int k = 0; k < 9; ++k) way.add(time_from_seconds(0.4 * k), {1.0, 2.0, 0.0}, k == 0 ? LaserScan{} : scan);
+  scene.driven = way.poses();
+  scene.robot_from_laser = {0.5, 0.0, 0.0};
+  scene.extent = {{0.0, 0.0}, {10.0, 5.0}};
+  const std::string svg = svg_of(scene);  // 1600 units for 10 m
+  CHECK(is_well_formed(svg));
+  CHECK(last_place(svg, "robot").x == 180);
+  const std::size_t expected = svg.find("class=\"expected\"");
+  REQUIRE(expected != std::string::npos);
+  const std::size_t ways = svg.find("values=\"", expected) + 8;
+  const std::string ahead = svg.substr(ways, svg.find('"', ways) - ways);
+  CHECK(ahead.starts_with("0 0;160 0;160 0;"));
+  CHECK(std::stod(ahead.substr(ahead.rfind(';') + 1)) == Approx(124.0).margin(4.1));
+  const std::size_t laser = svg.find("id=\"laser\"");
+  REQUIRE(laser != std::string::npos);
+  // The laser at 1.5, 2 m; at -1.56 rad a wall 2 m off, at 0.04 rad the end of its reach, 9 m.
+  CHECK(svg.find("values=\"M260 560 263 880 ", laser) != std::string::npos);
+  CHECK(svg.find(" 1699 502 ", laser) != std::string::npos);
 }
 
 TEST_CASE("a moving picture stays below its size: long runs, many movers, many walls") {

@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "apps/formats/ros_messages.h"
+#include "apps/view/joint_states.h"
 #include "tests/support/catch.h"
 
 using namespace jaywalk;
@@ -100,6 +101,35 @@ TEST_CASE("the scans of a second scanner have a topic of their own") {
   CHECK(std::string(came.header_.frame_id_) == "laser_rear");
   CHECK(came.ranges_._length == 3);
   dds_return_loan(reader, samples, taken);
+  dds_delete(far_end);
+}
+
+TEST_CASE("/joint_states on DDS has both wheels, their angles and speeds") {
+  ::setenv("CYCLONEDDS_URI", "file://" JAYWALK_LOOPBACK, 1);
+  const auto domain = static_cast<std::uint32_t>(::getpid() % 200);
+  dds::DdsTopics topics(domain, false);
+  const dds_entity_t far_end = dds_create_participant(domain, nullptr, nullptr);
+  const dds_entity_t reader =
+      dds::make_reader(far_end, sensor_msgs_msg_dds__JointState__desc, "/joint_states", dds::qos_keeping(1, true));
+  WheelState wheels;
+  wheels.left_rad = 1.5, wheels.right_rad = -2.5, wheels.left_radps = 0.25, wheels.right_radps = 4.0;
+  bool came = false;
+  for (int looks = 0; looks < 30'000 && !came; ++looks) {
+    CHECK(topics.publish("/joint_states", view::joint_states(wheels, Time{std::chrono::milliseconds(2250)})));
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    dds::take_all<sensor_msgs_msg_dds__JointState_>(reader, [&](const sensor_msgs_msg_dds__JointState_& told) {
+      came = true;
+      CHECK(told.header_.stamp_.sec_ == 2);
+      CHECK(told.header_.stamp_.nanosec_ == 250'000'000);
+      REQUIRE((told.name_._length == 2 && told.position_._length == 2 && told.velocity_._length == 2));
+      CHECK(std::string(told.name_._buffer[0]) == "left_wheel_joint");
+      CHECK(std::string(told.name_._buffer[1]) == "right_wheel_joint");
+      CHECK((told.position_._buffer[0] == 1.5 && told.position_._buffer[1] == -2.5));
+      CHECK((told.velocity_._buffer[0] == 0.25 && told.velocity_._buffer[1] == 4.0));
+      CHECK(told.effort_._length == 0);
+    });
+  }
+  CHECK(came);
   dds_delete(far_end);
 }
 

@@ -225,6 +225,21 @@ TEST_CASE("Foxglove's service /stop stops, and is answered in the encoding that 
   }
 }
 
+TEST_CASE("Foxglove's parameters are read, all or by name, and setting one tells the old value") {
+  const std::vector<FoxgloveParameter> parameters{{"/jaywalk.a", 0.5}, {"/jaywalk.b", 2.0}};
+  FoxgloveSession session(1, parameters);
+  const std::string a = R"({"name":"/jaywalk.a","type":"float64","value":0.5})";
+  const std::string b = R"({"name":"/jaywalk.b","type":"float64","value":2.0})";
+  const auto values = [](const std::string& listed) {
+    return R"({"id":"7","op":"parameterValues","parameters":[)" + listed + "]}";
+  };
+  CHECK(session.take_text(R"({"op":"getParameters","id":"7"})").status == values(a + "," + b));
+  CHECK(session.take_text(R"({"op":"getParameters","parameterNames":["/jaywalk.b",3],"id":"7"})").status == values(b));
+  CHECK(session.take_text(R"({"op":"setParameters","parameters":[{"name":"/jaywalk.a","value":9}],"id":"7"})").status ==
+        values(a + "," + b));
+  CHECK(foxglove_time(Time{std::chrono::nanoseconds(0x0102)}) == std::string("\2\2\1\0\0\0\0\0\0", 9));
+}
+
 TEST_CASE("Foxglove's client messages that are none are told, and subscribe to nothing") {
   FoxgloveSession session(3);
   for (const char* text :

@@ -18,7 +18,10 @@ constexpr double kDrawingFoot = 60.0;
 constexpr double kLongestPlayS = 60.0;
 constexpr std::size_t kMostPositions = 4'000;  ///< at about 10 bytes each
 constexpr std::size_t kMostPieces = 1'500;     ///< of walls and rows of cells, at about 18 bytes each
-constexpr std::size_t kMostBodies = 80;        ///< each has about 300 bytes beside its positions
+constexpr std::size_t kMostBodies = 80;        ///< each has about 500 bytes beside its positions
+constexpr std::size_t kMostScans = 60;         ///< at about 400 bytes each
+constexpr std::size_t kMostWalls = 1'000;      ///< more are passed through: each is looked at some ten thousand times
+constexpr double kAhead_s = 2.0;               ///< for which a body is expected to go straight on
 constexpr double kRadiansPerDegree = 0.017453292519943295;
 
 /// Nearest whole number, as text: whole units keep the file small.
@@ -66,11 +69,12 @@ class Drawing {
       : scene_(scene),
         to_sheet_(scene.extent, kDrawingCorner, kDrawingMost),
         bodies_(shown_bodies()),
-        playback_(scene.driven, kMostPositions / (1 + bodies_.size())) {}
+        playback_(scene.driven, kMostPositions / (1 + 2 * bodies_.size())) {}
 
   std::string text() {
     begin();
     zones();
+    laser();
     walls();
     goal();
     way();
@@ -197,6 +201,24 @@ class Drawing {
             "\" fill-opacity=\".6\" stroke=\"#fff\" stroke-width=\"3\"/></g></g>\n";
   }
 
+  /// Ground that the beams pass over.
+  void laser() {
+    const std::vector<DrivenPose> scans = playback_.scans(kMostScans);
+    if (scans.empty()) return;
+    const auto ground = [&](const DrivenPose& scan) {
+      const Pose2 map_from_laser = scan.pose * scene_.robot_from_laser;
+      std::vector<Vec2> corners{map_from_laser.position()};
+      for (const Vec2 end : scan.seen) corners.push_back(map_from_laser * end);
+      return path_of(corners, to_sheet_) + "Z";
+    };
+    out_ += "<path id=\"laser\" d=\"" + ground(scans.back()) + "\" fill=\"" + hex(ink::kRobot) +
+            "\" fill-opacity=\".1\"><animate attributeName=\"d\" calcMode=\"discrete\" values=\"" +
+            joined(scans, ground) + "\"" + dur() + "</path>\n";
+  }
+
+  /// A way on the sheet, where y points down.
+  [[nodiscard]] Vec2 on_sheet(Vec2 way) const { return {to_sheet_.pixels(way.x), -to_sheet_.pixels(way.y)}; }
+
   template <class Places, class Place>
   [[nodiscard]] std::string moved(const Places& places, const Place& place) const {
     return "<animateTransform attributeName=\"transform\" type=\"translate\" values=\"" + joined(places, place) + "\"" +
@@ -204,12 +226,27 @@ class Drawing {
   }
 
   void body(const Trail& trail) {
-    const std::vector<Vec2> way = playback_.positions(trail);
+    const std::vector<Vec2> way = playback_.positions(trail), ahead = ways_ahead(way, trail.radius_m);
     const auto place = [&](Vec2 p) { return pair(to_sheet_(p)); };
+    const auto moved_by = [&](Vec2 d) { return pair(on_sheet(d)); };
     const std::string radius = whole(to_sheet_.pixels(std::max(trail.radius_m, 0.1)));
+    const std::string disc = "<circle r=\"" + radius + "\" fill=\"" + hex(colour_of(trail.id)) + "\"";
     out_ += "<g transform=\"translate(" + place(way.back()) + ")\">" + moved(way, place) +
-            shown_while(playback_.stay(trail)) + "<circle r=\"" + radius + "\" fill=\"" + hex(colour_of(trail.id)) +
-            "\"/><text font-size=\"22\" x=\"" + radius + "\">" + std::to_string(trail.id) + "</text></g>\n";
+            shown_while(playback_.stay(trail)) + disc + " class=\"expected\" fill-opacity=\".3\">" +
+            moved(ahead, moved_by) + "</circle>" + disc + "/><text font-size=\"22\" x=\"" + radius + "\">" +
+            std::to_string(trail.id) + "</text></g>\n";
+  }
+
+  /// At each step the way that a body goes in kAhead_s, straight on from the step before, to a wall at most.
+  [[nodiscard]] std::vector<Vec2> ways_ahead(const std::vector<Vec2>& way, double radius_m) const {
+    std::vector<Vec2> ahead(way.size());
+    const double steps = kAhead_s / playback_.lasts_s() * static_cast<double>(way.size() - 1);
+    for (std::size_t k = 1; k < way.size(); ++k) {
+      const Vec2 end = way[k] + (way[k] - way[k - 1]) * steps;
+      const bool few = !scene_.walls.empty() && scene_.walls.size() <= kMostWalls;
+      ahead[k] = (few ? end_before_wall(scene_, way[k], end, radius_m) : end) - way[k];
+    }
+    return ahead;
   }
 
   /// Bodies that come and go are invisible before and after.

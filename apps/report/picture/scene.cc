@@ -60,11 +60,24 @@ double busyness(const Plan& plan, Vec2 robot) {
   return busy;
 }
 
+/// A beam that knows nothing ends where the one before it did.
+std::vector<Vec2> shown_beams(const LaserScan& scan) {
+  std::vector<Vec2> ends;
+  double range_m = 0.0;
+  for (std::size_t k = 0; k < kShownBeams && scan.beam_count >= kShownBeams; ++k) {
+    const std::size_t beam = k * (scan.beam_count - 1) / (kShownBeams - 1);
+    if (scan.state(beam) != BeamState::kUnknown)
+      range_m = static_cast<double>(std::min(scan.range_m[beam], scan.range_max_m));
+    ends.push_back(direction(scan.angle_rad(beam)) * range_m);
+  }
+  return ends;
+}
+
 }  // namespace
 
-void DrivenWay::add(Time t, const Pose2& pose) {
+void DrivenWay::add(Time t, const Pose2& pose, const LaserScan& scan) {
   if (!poses_.empty() && t - poses_.back().t < spacing_) return;
-  poses_.push_back({t, pose});
+  poses_.push_back({t, pose, shown_beams(scan)});
   if (poses_.size() > kMostPoses) keep_every(spacing_ *= 2, poses_);
 }
 
@@ -221,6 +234,19 @@ std::vector<Pose2> Playback::robot() const {
     poses[step].heading = before + wrap_angle(poses[step].heading - before);
   }
   return poses;
+}
+
+std::vector<DrivenPose> Playback::scans(std::size_t count) const {
+  std::vector<DrivenPose> all;
+  auto newest = std::ranges::find_if(driven_, [](const DrivenPose& driven) { return !driven.seen.empty(); });
+  for (std::size_t k = 0; k < count && newest != driven_.end(); ++k) {
+    const double share = static_cast<double>(k) / static_cast<double>(count - 1);
+    const Time t = begin_ + duration_from_seconds(lasts_s_ * share);
+    for (auto next = newest; next != driven_.end() && next->t <= t; ++next)
+      if (!next->seen.empty()) newest = next;
+    all.push_back(*newest);
+  }
+  return all;
 }
 
 std::vector<Vec2> Playback::positions(const Trail& trail) const {

@@ -25,11 +25,13 @@ struct TrailPoint {
   Vec2 position;
 };
 
-/// Where the robot stood.
+/// Where the robot stood, and what it saw from there.
 struct DrivenPose {
   Time t = kNever;
   Pose2 pose;
+  std::vector<Vec2> seen = {};  ///< ends of kShownBeams beams over the scan, in the laser's frame (m); of no scan none
 };
+inline constexpr std::size_t kShownBeams = 40;
 
 /// The robot's own way: a pose every 0.2 s; where there would be more than kMostPoses (an hour), twice as long, and so
 /// on.
@@ -38,7 +40,7 @@ class DrivenWay {
   static constexpr Duration kSpacing{200'000'000};
   static constexpr std::size_t kMostPoses = 18'000;
 
-  void add(Time t, const Pose2& pose);
+  void add(Time t, const Pose2& pose, const LaserScan& scan = {});
   [[nodiscard]] const std::vector<DrivenPose>& poses() const { return poses_; }
 
  private:
@@ -136,6 +138,7 @@ struct PictureScene {
   double goal_tolerance_m = 0.3;
   std::optional<double> goal_heading_rad;  ///< where one was wanted there
   Footprint footprint;
+  Pose2 robot_from_laser;
 };
 
 /// Centres of the map's occupied cells within `reach_m` of the driven path's bounding box.
@@ -197,6 +200,8 @@ class Playback {
   [[nodiscard]] double lasts_s() const { return lasts_s_; }
   /// The robot at each step, headings continuous (rad, beyond pi where it turned round); empty without a driven pose.
   [[nodiscard]] std::vector<Pose2> robot() const;
+  /// Scans at `count` equal steps (2 or more), where they were taken; none where there was none at all.
+  [[nodiscard]] std::vector<DrivenPose> scans(std::size_t count) const;
   /// The trail at each step; its first point before it begins, its last after it ends. `trail` has a point.
   [[nodiscard]] std::vector<Vec2> positions(const Trail& trail) const;
   /// When the trail is there, as shares of the playback in [0, 1].

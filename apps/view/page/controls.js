@@ -40,8 +40,7 @@ const theme = () => document.documentElement.dataset.theme;
 function show_theme(which) {
   document.documentElement.dataset.theme = which;
   inks.clear();
-  ground_picture = null;
-  for (const [number, made] of fields) Object.assign(made, raster_of(made.message, colour_of));
+  pictures.ground = pictures.field = null;
   draw_soon();
 }
 const dark = matchMedia('(prefers-color-scheme: dark)');

@@ -34,7 +34,7 @@ function keep(frame) {
 }
 // A tick that was asked for.
 function take_then(message) {
-  message.frame.field = message.field && picture_of(message.field);
+  message.frame.field = message.field && field_of(message.field);
   keep(message.frame);
   asked = -1;
   if (follows) draw_soon(); else choose(shown);

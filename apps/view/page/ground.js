@@ -1,7 +1,9 @@
 // The ground: the potential of the plan, what was known before, and where the way to a goal might lead.
 const bytes_of = base64 => Uint8Array.from(atob(base64), c => c.charCodeAt(0));
 const kBlocked = 255, kNoWay = 254, kNeverSeen = 127;  // of a field's bytes; from kNeverSeen on nothing was ever seen
-let ground_picture = null;
+const kFiner = 3;  // a field's pixels along a cell's side
+let ground = null;         // what was known before
+const pictures = {};       // of ground and field, as they were drawn last
 
 // Contours: one band in every eight.
 function colour_of(cell) {
@@ -11,25 +13,46 @@ function colour_of(cell) {
   const near = ink('near').split(','), far = ink('far').split(',');
   return [...near.map((n, i) => n * (1 - share) + far[i] * share - dark), seen ? 255 : 110];
 }
-// `colour`: of a byte. Rows come from the lowest y; pictures begin at the top.
-function raster_of(message, colour) {
-  const cells = bytes_of(message.cells), width = message.width, height = cells.length / width;
-  const picture = document.createElement('canvas');
-  picture.width = width; picture.height = height;
-  const pixels = new ImageData(width, height), colours = [...Array(256).keys()].map(colour);
-  for (let i = 0; i < cells.length; i++) pixels.data.set(colours[cells[i]], 4 * ((height - 1 - Math.floor(i / width)) * width + i % width));
-  picture.getContext('2d').putImageData(pixels, 0, 0);
-  return {message, cells, width, height, cell_m: message.cell_m, x: message.x, y: message.y, width_m: width * message.cell_m, height_m: height * message.cell_m, picture};
+function ground_colour_of(cell) {
+  const c = ink('wall'), wall = [1, 3, 5].map(k => parseInt(c.length > 4 ? c.slice(k, k + 2) : c[(k + 1) / 2].repeat(2), 16));
+  return cell === 2 ? [...wall, 255] : [128, 128, 128, cell === 1 ? 0 : 50];
 }
-function picture_of(message) {
-  if (!fields.has(message.number)) fields.set(message.number, raster_of(message, colour_of));
+// Rows come from the lowest y.
+function raster_of(message) {
+  const cells = bytes_of(message.cells), width = message.width, height = cells.length / width;
+  return {cells, width, height, cell_m: message.cell_m, x: message.x, y: message.y, width_m: width * message.cell_m, height_m: height * message.cell_m};
+}
+function field_of(message) {
+  if (!fields.has(message.number)) fields.set(message.number, raster_of(message));
   if (fields.size > 200) fields.delete(fields.keys().next().value);
   return fields.get(message.number);
 }
-function known_ground() {
-  const wall = () => { const c = ink('wall'); return [1, 3, 5].map(k => parseInt(c.length > 4 ? c.slice(k, k + 2) : c[(k + 1) / 2].repeat(2), 16)); };
-  if (!ground_picture) ground_picture = raster_of(hello.ground, cell => cell === 2 ? [...wall(), 255] : [128, 128, 128, cell === 1 ? 0 : 50]);
-  return ground_picture;
+const known_ground = () => ground = ground || raster_of(hello.ground);
+// A field's bytes, `fine` times as many a side: the four cells around blended, of those the kind that weighs most.
+function finer({cells, width, height}, fine) {
+  const bytes = new Uint8Array(fine * fine * cells.length), kinds = cells.map(cell => cell >= kNoWay ? cell : Number(cell >= kNeverSeen));
+  const within = (at, most) => Math.max(0, Math.min(most, (at + 0.5) / fine - 0.5)), shares = [0, 0, 0, 0], around = [0, 1, width, width + 1];
+  for (let y = 0, n = 0; y < fine * height; y++) for (let x = 0; x < fine * width; x++, n++) {
+    const px = within(x, width - 1), py = within(y, height - 1), i = Math.min(Math.floor(px), width - 2), j = Math.min(Math.floor(py), height - 2);
+    const u = px - i, v = py - j, k = j * width + i;
+    shares[0] = (1 - u) * (1 - v); shares[1] = u * (1 - v); shares[2] = (1 - u) * v; shares[3] = u * v;
+    let most = 0;
+    for (let q = 0; q < 4; q++) {
+      let share = 0, sum = 0;
+      for (let r = 0; r < 4; r++) if (kinds[k + around[r]] === kinds[k + around[q]]) { share += shares[r]; sum += shares[r] * cells[k + around[r]]; }
+      if (share > most) { most = share; bytes[n] = Math.round(sum / share); }
+    }
+  }
+  return bytes;
+}
+// Pictures begin at the top. `colour`: of a byte.
+function painted(raster, colour, fine) {
+  const picture = document.createElement('canvas'), width = picture.width = fine * raster.width, height = picture.height = fine * raster.height;
+  const pixels = new ImageData(width, height), words = new Uint32Array(pixels.data.buffer), bytes = fine > 1 ? finer(raster, fine) : raster.cells;
+  const colours = Uint32Array.from({length: 256}, (_, cell) => { const [r, g, b, a] = colour(cell); return r | g << 8 | b << 16 | a << 24; });
+  for (let i = 0; i < bytes.length; i++) words[(height - 1 - Math.floor(i / width)) * width + i % width] = colours[bytes[i]];
+  picture.getContext('2d').putImageData(pixels, 0, 0);
+  return {raster, picture};
 }
 // A raster's byte at a place; null outside.
 function byte_at(raster, x, y) {

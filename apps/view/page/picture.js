@@ -6,7 +6,7 @@ function ink(name) {
 }
 const tint = (name, alpha) => `rgba(${ink(name)},${alpha})`;
 const legend = () => [
-  ['wall', hello.walls.length ? 'walls of the world' : 'walls known before', '2px'], ['hit', 'where beams end, at the time of the scan', '4px'], [['near', 'far'], 'way to the goal: light is near it; pale was never seen; grey is not free'],
+  ['wall', hello.walls.length ? 'walls of the world' : 'walls known before', '2px'], ['hit', 'where beams end, at the time of the scan', '4px'], [['near', 'far'], 'way to the goal: light is near it; pale was never seen; grey is not free, reddish without a known way'],
   ['mover', 'moving: number, its sampled futures, where it may be in 2 and 4 s'], ['still', 'does not move'], ['pedestrian', 'a standing pedestrian', '3px'],
   ['path', 'path and goal; dashed: a goal proposed', '3px'], ['trail', 'way driven', '2px'], ['chosen', 'trajectory chosen, for 6 s', '4px'], ['robot', 'the robot', '3px'], ['zone', 'its stop zone', '2px']];
 
@@ -64,9 +64,10 @@ function draw_goal(pen, [x, y, heading]) {
   disc(pen, x, y, 0.3, tint('goal', 0.25), ink('path'));
   if (heading !== null && heading !== undefined) line(pen, [[x, y], [x + Math.cos(heading), y + Math.sin(heading)]], ink('path'), 3);
 }
-function draw_raster(pen, raster, smooth) {
-  pen.imageSmoothingEnabled = smooth; pen.imageSmoothingQuality = 'high';
-  pen.drawImage(raster.picture, ...to_screen(raster.x, raster.y + raster.height_m), raster.width_m * view.scale, raster.height_m * view.scale);
+function draw_raster(pen, name, raster, colour, fine) {
+  if (!pictures[name] || pictures[name].raster !== raster) pictures[name] = painted(raster, colour, fine);
+  pen.imageSmoothingEnabled = fine > 1; pen.imageSmoothingQuality = 'high';
+  pen.drawImage(pictures[name].picture, ...to_screen(raster.x, raster.y + raster.height_m), raster.width_m * view.scale, raster.height_m * view.scale);
 }
 
 function draw_map(frame) {
@@ -74,8 +75,8 @@ function draw_map(frame) {
   if (!drag || !view) aim(frame);
   const pen = map.getContext('2d'), scene = frame.scene;
   pen.fillStyle = ink('page'); pen.fillRect(0, 0, map.width, map.height);
-  if (hello.ground) draw_raster(pen, known_ground(), false);
-  if (frame.field) draw_raster(pen, frame.field, true);
+  if (hello.ground) draw_raster(pen, 'ground', known_ground(), ground_colour_of, 1);
+  if (frame.field) draw_raster(pen, 'field', frame.field, colour_of, kFiner);
   pen.beginPath();
   for (const w of hello.walls) trace(pen, [[w[0], w[1]], [w[2], w[3]]]);
   pen.strokeStyle = ink('wall'); pen.lineWidth = 2; pen.stroke();
@@ -101,7 +102,8 @@ function draw() {
   if (!hello || !frame) return;
   draw_map(frame);
   draw_strip(frame);
-  const why = frame.ended ? 'ended: ' + frame.ended : words_of(frame.reasons) || (frame.arrived && Math.abs(frame.speed) < 0.01 ? 'arrived: tap the next goal' : '');
-  element('said').textContent = `${frame.t.toFixed(2)} s \u00B7 ${speed_of(frame.speed)}, wanted ${frame.wanted[0].toFixed(2)}, permitted ${frame.permitted[0].toFixed(2)}` +
+  const alarms = frame === frames.get(newest) && element('alarm').textContent.startsWith('Stopped: ');  // which has the reasons
+  const why = frame.ended ? 'ended: ' + frame.ended : alarms ? '' : words_of(frame.reasons) || (frame.arrived && Math.abs(frame.speed) < 0.01 ? 'arrived: tap the next goal' : '');
+  element('said').textContent = `${frame.t.toFixed(2)} s \u00B7 ${speed_of(frame.speed)}, wanted ${hundredths(frame.wanted[0])}, permitted ${hundredths(frame.permitted[0])}` +
     (why ? ` \u00B7 ${why}` : '');
 }

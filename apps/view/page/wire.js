@@ -27,7 +27,7 @@ function order(message) { if (socket && socket.readyState === 1) socket.send(JSO
 function hear(message) {
   heard_at = performance.now();
   silent_looks = 0;
-  const take = {hello: take_hello, field: m => { field = picture_of(m); }, frame: take_frame, then: take_then, past: take_past, said: take_said,
+  const take = {hello: take_hello, field: m => { field = field_of(m); }, frame: take_frame, then: take_then, past: take_past, said: take_said,
                 paused: () => { paused = true; axis(); }}[message.kind];
   if (take) take(message);
   show_state();
@@ -36,7 +36,7 @@ function take_hello(message) {
   hello = message;
   over = message.over === true;
   element('title').textContent = document.title = message.title;
-  ground_picture = null;
+  ground = null;
   if (message.keeps_ticks) order({past: true});
 }
 let forgets = 0;
