@@ -4,7 +4,6 @@
 // Jetson, too, where managed memory would be maintained at every launch.
 #include <cuda_runtime.h>
 
-#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cstddef>

@@ -1,6 +1,5 @@
 #include "drivers/wired_drive.h"
 
-#include <array>
 #include <cstdio>
 #include <span>
 

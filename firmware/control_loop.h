@@ -2,7 +2,6 @@
 // The fixed-rate loop. One tick: sense, estimate, plan, act, record.
 #include <cstdint>
 #include <memory>
-#include <utility>
 #include <vector>
 
 #include "firmware/control_setup.h"

@@ -6,7 +6,6 @@
 #include <regex>
 #include <sstream>
 
-#include "hal/setting_keys.h"
 #include "hal/shown_text.h"
 #include "hal/text_file.h"
 #include "hal/types/errors.h"

@@ -1,6 +1,5 @@
 #include "apps/report/drive_metrics.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -8,7 +7,18 @@
 
 namespace jaywalk {
 namespace {
+
 constexpr double kLoop_rad = 340.0 / 180.0 * kPi, kWithin_m = 10.0, kPiece_m = 0.05;
+
+constexpr double kFor_m = 3.0;  ///< a body farther off is no reason
+constexpr double kWalks_mps = 0.2;
+constexpr std::size_t kMostLines = 10;
+
+std::string place_of(double t_s, Vec2 where) {
+  char text[80];
+  std::snprintf(text, sizeof text, "  at %.1f s, %.1f, %.1f m", t_s, where.x, where.y);
+  return without_minus_zero(text);
+}
 
 }  // namespace
 
@@ -101,19 +111,6 @@ void DetourCount::judge(double t_s, double to_go_m) {
   else
     detours_.push_back({from_s_, t_s});
 }
-
-namespace {
-constexpr double kFor_m = 3.0;  ///< a body farther off is no reason
-constexpr double kWalks_mps = 0.2;
-constexpr std::size_t kMostLines = 10;
-
-std::string place_of(double t_s, Vec2 where) {
-  char text[80];
-  std::snprintf(text, sizeof text, "  at %.1f s, %.1f, %.1f m", t_s, where.x, where.y);
-  return without_minus_zero(text);
-}
-
-}  // namespace
 
 void Moments::add(double from_s, double for_s, Vec2 position_in_map, const std::string& what) {
   moments_.push_back({from_s, for_s, position_in_map, what, kFor_m});

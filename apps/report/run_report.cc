@@ -17,12 +17,71 @@
 
 namespace jaywalk {
 namespace {
+
 constexpr off_t kBytes = 64 * 1024;  // a summary.json and a devices.json have 2 to 5 kB
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 void add_pose(CsvFile& table, const Pose2& pose) { table.number(pose.x).number(pose.y).number(pose.heading); }
 void add_vector(CsvFile& table, Vec2 v) { table.number(v.x).number(v.y); }
+
+using Json = nlohmann::ordered_json;
+
+std::unique_ptr<RunTables> open_tables(const std::filesystem::path& folder, const std::filesystem::path& tables) {
+  if (folder.empty()) return nullptr;
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  for (const char* last_written : {"summary.json", "run.png", "run.svg", "run.mcap"}) {
+    if (!error) std::filesystem::remove(folder / last_written, error);
+  }
+  if (error) throw StartupError(folder.string() + ": " + error.message(), "choose another --out folder");
+  return std::make_unique<RunTables>(tables);
+}
+
+/// NaN and infinity, which JSON has no word for, become null.
+Json spread(const Distribution& of) {
+  return {{"p50", of.quantile(0.5)}, {"p99", of.quantile(0.99)}, {"max", of.max()}};
+}
+
+/// Bins are doublings: upper edge and count.
+Json spread(const LogHistogram& of) {
+  return {{"p50", of.quantile(0.5)},
+          {"p99", of.quantile(0.99)},
+          {"p99.9", of.quantile(0.999)},
+          {"max", of.max()},
+          {"bins", of.doublings()}};
+}
+
+template <class T>
+Json known(bool is_known, const T& value) {
+  return is_known ? Json(value) : Json(nullptr);
+}
+
+template <class T>
+Json known(const std::optional<T>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
+
+std::vector<std::string> all_complaints(std::vector<std::string> some, const std::vector<std::string>& others) {
+  some.insert(some.end(), others.begin(), others.end());
+  return some;
+}
+
+/// When each began, and how long it took.
+void add_times(Json& j, const std::string& of, const std::vector<Episode>& episodes) {
+  Json at = Json::array(), lasted = Json::array();
+  for (const Episode& episode : episodes) at.push_back(episode.from_s), lasted.push_back(episode.to_s - episode.from_s);
+  j[of + "_at_s"] = at, j[of + "_for_s"] = lasted;
+}
+
+/// At full speed; infinite where no way is known.
+double way_to_go_m(const ControlLoop& loop, Vec2 here) {
+  const Guide& guide = loop.plan().guide;
+  const float to_go_s =
+      guide.known() ? guide.time_to_go(static_cast<float>(here.x), static_cast<float>(here.y)) : Guide::kNoWay_s;
+  return to_go_s < Guide::kNoWay_s ? static_cast<double>(to_go_s) * loop.setup().model.limits.max_speed_mps
+                                   : std::numeric_limits<double>::infinity();
+}
 
 }  // namespace
 
@@ -102,67 +161,6 @@ void RunTables::add_tracks(const RunSample& sample) {
     tracks_.count(track.moving ? 1 : 0).number(std::sqrt(track.covariance.pp)).end_row();
   }
 }
-
-namespace {
-using Json = nlohmann::ordered_json;
-
-std::unique_ptr<RunTables> open_tables(const std::filesystem::path& folder, const std::filesystem::path& tables) {
-  if (folder.empty()) return nullptr;
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  for (const char* last_written : {"summary.json", "run.png", "run.svg", "run.mcap"}) {
-    if (!error) std::filesystem::remove(folder / last_written, error);
-  }
-  if (error) throw StartupError(folder.string() + ": " + error.message(), "choose another --out folder");
-  return std::make_unique<RunTables>(tables);
-}
-
-/// NaN and infinity, which JSON has no word for, become null.
-Json spread(const Distribution& of) {
-  return {{"p50", of.quantile(0.5)}, {"p99", of.quantile(0.99)}, {"max", of.max()}};
-}
-
-/// Bins are doublings: upper edge and count.
-Json spread(const LogHistogram& of) {
-  return {{"p50", of.quantile(0.5)},
-          {"p99", of.quantile(0.99)},
-          {"p99.9", of.quantile(0.999)},
-          {"max", of.max()},
-          {"bins", of.doublings()}};
-}
-
-template <class T>
-Json known(bool is_known, const T& value) {
-  return is_known ? Json(value) : Json(nullptr);
-}
-
-template <class T>
-Json known(const std::optional<T>& value) {
-  return value ? Json(*value) : Json(nullptr);
-}
-
-std::vector<std::string> all_complaints(std::vector<std::string> some, const std::vector<std::string>& others) {
-  some.insert(some.end(), others.begin(), others.end());
-  return some;
-}
-
-/// When each began, and how long it took.
-void add_times(Json& j, const std::string& of, const std::vector<Episode>& episodes) {
-  Json at = Json::array(), lasted = Json::array();
-  for (const Episode& episode : episodes) at.push_back(episode.from_s), lasted.push_back(episode.to_s - episode.from_s);
-  j[of + "_at_s"] = at, j[of + "_for_s"] = lasted;
-}
-
-/// At full speed; infinite where no way is known.
-double way_to_go_m(const ControlLoop& loop, Vec2 here) {
-  const Guide& guide = loop.plan().guide;
-  const float to_go_s =
-      guide.known() ? guide.time_to_go(static_cast<float>(here.x), static_cast<float>(here.y)) : Guide::kNoWay_s;
-  return to_go_s < Guide::kNoWay_s ? static_cast<double>(to_go_s) * loop.setup().model.limits.max_speed_mps
-                                   : std::numeric_limits<double>::infinity();
-}
-
-}  // namespace
 
 RunReport::RunReport(const std::filesystem::path& folder, const std::filesystem::path& tables)
     : folder_(folder),

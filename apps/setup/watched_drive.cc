@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "firmware/safety/latency.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk {

@@ -1,6 +1,5 @@
 #pragma once
 // What the motions of a commissioning run say about motors, encoders, wheels and scanner.
-#include <string>
 #include <vector>
 
 #include "apps/setup/watched_drive.h"

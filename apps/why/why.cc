@@ -112,75 +112,6 @@ std::pair<const char*, const char*> names_of(motion::Proposal proposal) {
   return {"unknown", "do something unknown"};
 }
 
-}  // namespace
-
-DecisionScene scene_of(const motion::GoalRollouts& motion, const std::vector<motion::Alternative>& alternatives) {
-  constexpr int kEvery = 5;  // steps: a second
-  const motion::Decision& decision = motion.decision();
-  DecisionScene scene;
-  std::set<motion::Proposal> told{decision.trajectory.proposal};
-  for (const motion::Alternative& a : alternatives) {
-    const motion::Proposal kind = a.trajectory.proposal;
-    if (!told.insert(kind).second) continue;
-    std::string name = names_of(kind).first;
-    std::replace(name.begin(), name.end(), '_', ' ');
-    scene.ways.push_back({std::move(name), way_of(decision.start, a.driven), a.cost.total() - decision.cost.total()});
-  }
-  scene.chosen = way_of(decision.start, decision.driven);
-  for (std::size_t m = 0; m < motion.futures().movers(); ++m) {
-    for (int step = 0; step < motion::kFutureSteps; step += kEvery) {
-      const motion::MoverAt& at = motion.futures().at(step, m);
-      const double share = static_cast<double>(step) / (motion::kFutureSteps - 1);
-      for (int k = 0; k < motion::kFutures; ++k)
-        scene.futures.push_back({{static_cast<double>(at.x[k]), static_cast<double>(at.y[k])}, share});
-    }
-  }
-  return scene;
-}
-
-std::string chosen_in_words(const motion::GoalRollouts& motion, const Resolve& resolve, const BodiesAbout& around) {
-  const motion::Decision& decision = motion.decision();
-  const double since_s = to_seconds(decision.at - resolve.at);
-  return std::string("to ") + names_of(resolve.proposal).second +
-         (since_s > 0.0 ? formatted(", as decided %.1f s before", since_s) : "") + ": " +
-         in_words(decision.cost, decision.driven, motion.futures(), around);
-}
-
-std::string next_best_in_words(const motion::GoalRollouts& motion, const Resolve& resolve,
-                               const std::vector<motion::Alternative>& alternatives, const BodiesAbout& around) {
-  const auto next = std::ranges::find_if(alternatives, [&](const motion::Alternative& a) {
-    return a.trajectory.proposal != motion::Proposal::kLast && a.trajectory.proposal != resolve.proposal;
-  });
-  if (next == alternatives.end()) return "";
-  const double more_s = static_cast<double>(next->cost.total() - motion.decision().cost.total());
-  return std::string("to ") + names_of(next->trajectory.proposal).second +
-         (std::fabs(more_s) < kWorthSaying_s ? " is as good: "
-          : more_s > 0.0                     ? formatted(" would have cost %.1f s more: ", more_s)
-                         : formatted(" is better by %.1f s, too little for a change of mind: ", -more_s)) +
-         in_words(next->cost, next->driven, motion.futures(), around);
-}
-
-void write_alternatives(const std::vector<motion::Alternative>& alternatives, const std::string& file) {
-  CsvFile table(file,
-                "attempt,perturbed,total_s,time_s,conflict_s,touch_s,stop_zone_s,clearance_s,unseen_s,nearness_s,"
-                "comfort_s,end_x_m,end_y_m,end_heading_rad,end_v_mps,first_v_mps,first_w_radps");
-  const auto number = [&table](float value) { table.number(static_cast<double>(value)); };
-  for (const motion::Alternative& a : alternatives) {
-    table.text(names_of(a.trajectory.proposal).first).count(a.trajectory.perturbed ? 1 : 0);
-    number(a.cost.total());
-    number(a.cost.time);
-    for (const auto& term : terms_of(a.cost)) number(term.second);
-    const motion::RobotState& end = a.driven.back();
-    for (const float value : {end.x, end.y, end.heading, end.v}) number(value);
-    number(a.trajectory.commands.front().v);
-    number(a.trajectory.commands.front().w);
-    table.end_row();
-  }
-  (void)table.close();
-}
-
-namespace {
-
 constexpr double kDegPerRad = 180.0 / kPi;
 constexpr double kLookAhead_s = 5.0;
 
@@ -292,6 +223,71 @@ std::string otherwise(const TickRecord& t, const ControlLoop& loop, const RobotM
 }
 
 }  // namespace
+
+DecisionScene scene_of(const motion::GoalRollouts& motion, const std::vector<motion::Alternative>& alternatives) {
+  constexpr int kEvery = 5;  // steps: a second
+  const motion::Decision& decision = motion.decision();
+  DecisionScene scene;
+  std::set<motion::Proposal> told{decision.trajectory.proposal};
+  for (const motion::Alternative& a : alternatives) {
+    const motion::Proposal kind = a.trajectory.proposal;
+    if (!told.insert(kind).second) continue;
+    std::string name = names_of(kind).first;
+    std::replace(name.begin(), name.end(), '_', ' ');
+    scene.ways.push_back({std::move(name), way_of(decision.start, a.driven), a.cost.total() - decision.cost.total()});
+  }
+  scene.chosen = way_of(decision.start, decision.driven);
+  for (std::size_t m = 0; m < motion.futures().movers(); ++m) {
+    for (int step = 0; step < motion::kFutureSteps; step += kEvery) {
+      const motion::MoverAt& at = motion.futures().at(step, m);
+      const double share = static_cast<double>(step) / (motion::kFutureSteps - 1);
+      for (int k = 0; k < motion::kFutures; ++k)
+        scene.futures.push_back({{static_cast<double>(at.x[k]), static_cast<double>(at.y[k])}, share});
+    }
+  }
+  return scene;
+}
+
+std::string chosen_in_words(const motion::GoalRollouts& motion, const Resolve& resolve, const BodiesAbout& around) {
+  const motion::Decision& decision = motion.decision();
+  const double since_s = to_seconds(decision.at - resolve.at);
+  return std::string("to ") + names_of(resolve.proposal).second +
+         (since_s > 0.0 ? formatted(", as decided %.1f s before", since_s) : "") + ": " +
+         in_words(decision.cost, decision.driven, motion.futures(), around);
+}
+
+std::string next_best_in_words(const motion::GoalRollouts& motion, const Resolve& resolve,
+                               const std::vector<motion::Alternative>& alternatives, const BodiesAbout& around) {
+  const auto next = std::ranges::find_if(alternatives, [&](const motion::Alternative& a) {
+    return a.trajectory.proposal != motion::Proposal::kLast && a.trajectory.proposal != resolve.proposal;
+  });
+  if (next == alternatives.end()) return "";
+  const double more_s = static_cast<double>(next->cost.total() - motion.decision().cost.total());
+  return std::string("to ") + names_of(next->trajectory.proposal).second +
+         (std::fabs(more_s) < kWorthSaying_s ? " is as good: "
+          : more_s > 0.0                     ? formatted(" would have cost %.1f s more: ", more_s)
+                         : formatted(" is better by %.1f s, too little for a change of mind: ", -more_s)) +
+         in_words(next->cost, next->driven, motion.futures(), around);
+}
+
+void write_alternatives(const std::vector<motion::Alternative>& alternatives, const std::string& file) {
+  CsvFile table(file,
+                "attempt,perturbed,total_s,time_s,conflict_s,touch_s,stop_zone_s,clearance_s,unseen_s,nearness_s,"
+                "comfort_s,end_x_m,end_y_m,end_heading_rad,end_v_mps,first_v_mps,first_w_radps");
+  const auto number = [&table](float value) { table.number(static_cast<double>(value)); };
+  for (const motion::Alternative& a : alternatives) {
+    table.text(names_of(a.trajectory.proposal).first).count(a.trajectory.perturbed ? 1 : 0);
+    number(a.cost.total());
+    number(a.cost.time);
+    for (const auto& term : terms_of(a.cost)) number(term.second);
+    const motion::RobotState& end = a.driven.back();
+    for (const float value : {end.x, end.y, end.heading, end.v}) number(value);
+    number(a.trajectory.commands.front().v);
+    number(a.trajectory.commands.front().w);
+    table.end_row();
+  }
+  (void)table.close();
+}
 
 std::string in_words(Reason reasons) {
   std::string words;

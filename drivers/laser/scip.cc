@@ -1,7 +1,6 @@
 #include "drivers/laser/scip.h"
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cstdio>
 #include <limits>
@@ -149,6 +148,15 @@ void place(const Question& question, const ScannerModel& model, Time arrival, La
   scan.range_max_m = model.range_max_m;
 }
 
+/// More scans than this do not go missing on a connection that lives: the scanner began to count anew.
+constexpr std::uint32_t kMostLost = 1000;
+
+/// An answer's status without its checksum: what stands between the first and the second line's end.
+std::string_view status_of(std::string_view answer) noexcept {
+  const std::size_t begin = std::min(answer.find('\n'), answer.size() - 1) + 1;
+  return answer.substr(begin, 2);
+}
+
 }  // namespace
 
 char checksum(std::string_view line) noexcept {
@@ -235,19 +243,6 @@ Decoding decode_scan(std::string_view answer, const ScannerModel& model, Time ar
   place(*question, model, arrival, scan);
   return Decoding::kScan;
 }
-
-namespace {
-
-/// More scans than this do not go missing on a connection that lives: the scanner began to count anew.
-constexpr std::uint32_t kMostLost = 1000;
-
-/// An answer's status without its checksum: what stands between the first and the second line's end.
-std::string_view status_of(std::string_view answer) noexcept {
-  const std::size_t begin = std::min(answer.find('\n'), answer.size() - 1) + 1;
-  return answer.substr(begin, 2);
-}
-
-}  // namespace
 
 void ScipProtocol::begin() noexcept {
   step_ = Step::kDialect;

@@ -1,7 +1,5 @@
 #include "drivers/motor/odrive_base.h"
 
-#include <cmath>
-
 #include "hal/types/errors.h"
 
 namespace jaywalk::odrive {

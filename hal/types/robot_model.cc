@@ -15,6 +15,15 @@ double turn_between(double from_rad, double to_rad) {
   return turn < 0.0 ? turn + 2.0 * kPi : turn;
 }
 
+/// Of a corner: by its end of the body.
+const char* side_of(const Footprint& body, Vec2 mount) {
+  const double half_length_m = 0.5 * (body.front_m + body.rear_m);
+  const double ahead = (mount.x - (body.front_m - half_length_m)) / half_length_m;
+  const double left = mount.y / body.half_width_m;
+  if (std::fabs(ahead) < 0.5 * std::fabs(left)) return left > 0.0 ? "left" : "right";
+  return ahead < 0.0 ? "rear" : "front";
+}
+
 }  // namespace
 
 double BlankedSector::width_rad() const noexcept { return turn_between(from_rad, to_rad); }
@@ -58,19 +67,6 @@ double DriveTimes::slower_s(double tick_s) const {
   return std::max(response_s - usual.response_s, 0.0) + std::max(report_s - std::max(usual.report_s, tick_s), 0.0) +
          late_s;
 }
-
-namespace {
-
-/// Of a corner: by its end of the body.
-const char* side_of(const Footprint& body, Vec2 mount) {
-  const double half_length_m = 0.5 * (body.front_m + body.rear_m);
-  const double ahead = (mount.x - (body.front_m - half_length_m)) / half_length_m;
-  const double left = mount.y / body.half_width_m;
-  if (std::fabs(ahead) < 0.5 * std::fabs(left)) return left > 0.0 ? "left" : "right";
-  return ahead < 0.0 ? "rear" : "front";
-}
-
-}  // namespace
 
 std::string scanner_name(const RobotModel& model, std::size_t scanner) {
   if (model.other_lasers.empty()) return "";

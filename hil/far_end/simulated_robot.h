@@ -8,8 +8,6 @@
 #include <functional>
 #include <memory>
 #include <span>
-#include <string>
-#include <utility>
 #include <vector>
 
 #include "drivers/can/in_process_bus.h"

@@ -2,7 +2,6 @@
 // Cell functions take values and return a value: no pointer, no index, no memory space. The same
 // source runs on the processor and on the graphics card, and must give the same bits on both, so
 // they use + - x / sqrt, comparisons, integers and the polynomials of exp_log.h, nothing else.
-#include <cstdint>
 #include <limits>
 
 #ifdef __CUDACC__

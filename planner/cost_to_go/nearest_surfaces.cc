@@ -1,6 +1,5 @@
 #include "planner/cost_to_go/nearest_surfaces.h"
 
-#include <algorithm>
 #include <cstdlib>
 #include <cstring>
 

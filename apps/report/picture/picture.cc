@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstdio>
 #include <functional>
-#include <string>
 
 #include "apps/report/picture/cairo_library.h"
 #include "apps/report/picture/canvas.h"
