@@ -1,10 +1,10 @@
 #include "drivers/wired_drive.h"
 
-#include <cstdio>
 #include <span>
 
 #include "drivers/arcos/arcos.h"
 #include "drivers/canopen/cia402.h"
+#include "hal/shown_text.h"
 
 namespace jaywalk {
 namespace {
@@ -130,11 +130,7 @@ std::string emergency_words(std::uint32_t code) {
                                      : std::string(canopen::emergency_class(static_cast<std::uint16_t>(code)));
 }
 
-std::string coded(const char* format, std::uint32_t number) {
-  std::array<char, 24> text{};
-  std::snprintf(text.data(), text.size(), format, static_cast<unsigned>(number));
-  return text.data();
-}
+std::string coded(const char* format, std::uint32_t number) { return formatted(format, static_cast<unsigned>(number)); }
 
 }  // namespace
 

@@ -38,9 +38,9 @@ namespace jaywalk {
   return text;
 }
 
-/// As std::printf writes it, without_minus_zero; cut after 255 characters.
+/// As std::printf writes it, without_minus_zero; cut after 511 characters.
 [[nodiscard, gnu::format(printf, 1, 2)]] inline std::string formatted(const char* format, ...) {
-  char text[256];
+  char text[512];
   va_list arguments;
   va_start(arguments, format);
   std::vsnprintf(text, sizeof text, format, arguments);

@@ -101,9 +101,7 @@ class UnpackedFile {
     ByteFile file(packed, "take an undamaged copy of it");
     const auto bytes = unpack_zstd(file.read(0, file.size()), 4 * kMostRecordBytes);
     if (!bytes) file.refuse(0, "it does not unpack");
-    std::ofstream out(path_, std::ios::binary);
-    out.write(bytes->data(), static_cast<std::streamsize>(bytes->size()));
-    if (!out.flush()) throw StartupError(path_.string() + ": cannot be written", "free some space, or set TMPDIR");
+    write_text(path_, *bytes, "free some space, or set TMPDIR");
   }
   ~UnpackedFile() {
     std::error_code ignored;

@@ -46,14 +46,8 @@ std::filesystem::path own_program() {
 
 /// "8 s", "12 min", "3.5 h".
 std::string time_in_words(double seconds) {
-  char text[32];
-  if (seconds < 90.0)
-    std::snprintf(text, sizeof text, "%.0f s", seconds);
-  else if (seconds < 5400.0)
-    std::snprintf(text, sizeof text, "%.0f min", seconds / 60.0);
-  else
-    std::snprintf(text, sizeof text, "%.1f h", seconds / 3600.0);
-  return text;
+  if (seconds < 90.0) return formatted("%.0f s", seconds);
+  return seconds < 5400.0 ? formatted("%.0f min", seconds / 60.0) : formatted("%.1f h", seconds / 3600.0);
 }
 
 /// Counts what is done and tells it: a bar on a terminal, a line a run elsewhere.

@@ -22,8 +22,7 @@ std::uint16_t port_of(const std::string& word) {
 double sound(const char* option, double value) {
   constexpr double kFarthest = 1e6;
   if (value >= -kFarthest && value <= kFarthest) return value;
-  char text[32];
-  std::snprintf(text, sizeof text, "%g", value);
+  const std::string text = formatted("%g", value);
   throw StartupError(std::string(option) + ": " + text + " is no place", "give metres and radians");
 }
 

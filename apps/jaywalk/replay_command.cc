@@ -146,13 +146,11 @@ sim::RecordedLog load_and_complain(const ReplayOptions& options, const std::stri
 }
 
 void suggest_mount(const Pose2& given, double missing_yaw) {
-  char text[200];
-  std::snprintf(
-      text, sizeof text,
+  const std::string text = formatted(
       "jaywalk: the scans slide aside of where the wheels drive: is the laser mounted turned? Try --laser-mount "
       "%.2f,%.2f,%.2f, and on until this line is gone\n",
       given.x, given.y, wrap_angle(given.heading + missing_yaw));
-  std::fputs(without_minus_zero(text).c_str(), stderr);
+  std::fputs(text.c_str(), stderr);
 }
 
 void tell(Progress& progress, const sim::LogReplay& log, Time now) {
@@ -195,9 +193,8 @@ int replay_log(const ReplayOptions& options, const std::string& format) {
   const std::string name = options.logs[0].filename().string();
   const bool whole = log.ended();
   const std::size_t scans = log.log().scans.size();
-  char told[100];
-  std::snprintf(told, sizeof told, ": %zu %s over %.1f s", scans, scans == 1 ? "scan" : "scans",
-                to_seconds(log.end_time() - log.start_time()));
+  const std::string told = formatted(": %zu %s over %.1f s", scans, scans == 1 ? "scan" : "scans",
+                                     to_seconds(log.end_time() - log.start_time()));
   conclude(options, runner,
            {.outcome = whole ? "replayed" : "interrupted",
             .success = whole,

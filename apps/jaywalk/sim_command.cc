@@ -209,8 +209,7 @@ void tell(Progress& progress, const sim::Scenario& scenario, const sim::Truth& t
   if (!progress.is_due()) return;
   const double whole_m = distance(scenario.start.position(), scenario.goal);
   const double left_m = distance(truth.map_from_robot.position(), scenario.goal);
-  char words[64];
-  std::snprintf(words, sizeof words, "%.0f s, %.1f m to the goal", to_seconds(truth.now), left_m);
+  const std::string words = formatted("%.0f s, %.1f m to the goal", to_seconds(truth.now), left_m);
   progress.show(1.0 - left_m / whole_m, words);
 }
 

@@ -15,6 +15,12 @@ namespace {
 
 constexpr float kWorthSaying_s = 0.05F;
 
+/// Tracked bodies, and the robot's own outline.
+struct BodiesAbout {
+  std::span<const Track> tracks;
+  Footprint footprint;
+};
+
 /// The terms beside the time, in the order of the table's columns.
 std::array<std::pair<const char*, float>, 7> terms_of(const motion::Cost& cost) {
   return {{{"getting in somebody's way", cost.conflict},
@@ -110,6 +116,39 @@ std::pair<const char*, const char*> names_of(motion::Proposal proposal) {
     case Proposal::kBrake: return {"brake", "brake as hard as it can"};
   }
   return {"unknown", "do something unknown"};
+}
+
+/// "to follow the way, as decided 1.2 s before: 25.8 s to the goal, plus 0.4 s for being close to people (body 7 could
+/// come within 0.3 m in 1.8 s)".
+std::string chosen_in_words(const motion::GoalRollouts& motion, const Resolve& resolve, const BodiesAbout& around) {
+  const motion::Decision& decision = motion.decision();
+  const double since_s = to_seconds(decision.at - resolve.at);
+  return std::string("to ") + names_of(resolve.proposal).second +
+         (since_s > 0.0 ? formatted(", as decided %.1f s before", since_s) : "") + ": " +
+         in_words(decision.cost, decision.driven, motion.futures(), around);
+}
+
+/// "to wait and then go would have cost 0.3 s more: ...": the cheapest of another kind; empty where there is none.
+std::string next_best_in_words(const motion::GoalRollouts& motion, const Resolve& resolve,
+                               const std::vector<motion::Alternative>& alternatives, const BodiesAbout& around) {
+  const auto next = std::ranges::find_if(alternatives, [&](const motion::Alternative& a) {
+    return a.trajectory.proposal != motion::Proposal::kLast && a.trajectory.proposal != resolve.proposal;
+  });
+  if (next == alternatives.end()) return "";
+  const double more_s = static_cast<double>(next->cost.total() - motion.decision().cost.total());
+  return std::string("to ") + names_of(next->trajectory.proposal).second +
+         (std::fabs(more_s) < kWorthSaying_s ? " is as good: "
+          : more_s > 0.0                     ? formatted(" would have cost %.1f s more: ", more_s)
+                         : formatted(" is better by %.1f s, too little for a change of mind: ", -more_s)) +
+         in_words(next->cost, next->driven, motion.futures(), around);
+}
+
+/// "stop_zone" as a person says it: "something stands in the way". Every reason of the set, joined by "; ".
+std::string in_words(Reason reasons) {
+  std::string words;
+  for (const ReasonRow& row : kReasons)
+    if (has(reasons, row.reason)) words += (words.empty() ? "" : "; ") + std::string(row.says);
+  return words;
 }
 
 constexpr double kDegPerRad = 180.0 / kPi;
@@ -248,28 +287,6 @@ DecisionScene scene_of(const motion::GoalRollouts& motion, const std::vector<mot
   return scene;
 }
 
-std::string chosen_in_words(const motion::GoalRollouts& motion, const Resolve& resolve, const BodiesAbout& around) {
-  const motion::Decision& decision = motion.decision();
-  const double since_s = to_seconds(decision.at - resolve.at);
-  return std::string("to ") + names_of(resolve.proposal).second +
-         (since_s > 0.0 ? formatted(", as decided %.1f s before", since_s) : "") + ": " +
-         in_words(decision.cost, decision.driven, motion.futures(), around);
-}
-
-std::string next_best_in_words(const motion::GoalRollouts& motion, const Resolve& resolve,
-                               const std::vector<motion::Alternative>& alternatives, const BodiesAbout& around) {
-  const auto next = std::ranges::find_if(alternatives, [&](const motion::Alternative& a) {
-    return a.trajectory.proposal != motion::Proposal::kLast && a.trajectory.proposal != resolve.proposal;
-  });
-  if (next == alternatives.end()) return "";
-  const double more_s = static_cast<double>(next->cost.total() - motion.decision().cost.total());
-  return std::string("to ") + names_of(next->trajectory.proposal).second +
-         (std::fabs(more_s) < kWorthSaying_s ? " is as good: "
-          : more_s > 0.0                     ? formatted(" would have cost %.1f s more: ", more_s)
-                         : formatted(" is better by %.1f s, too little for a change of mind: ", -more_s)) +
-         in_words(next->cost, next->driven, motion.futures(), around);
-}
-
 void write_alternatives(const std::vector<motion::Alternative>& alternatives, const std::string& file) {
   CsvFile table(file,
                 "attempt,perturbed,total_s,time_s,conflict_s,touch_s,stop_zone_s,clearance_s,unseen_s,nearness_s,"
@@ -287,13 +304,6 @@ void write_alternatives(const std::vector<motion::Alternative>& alternatives, co
     table.end_row();
   }
   (void)table.close();
-}
-
-std::string in_words(Reason reasons) {
-  std::string words;
-  for (const ReasonRow& row : kReasons)
-    if (has(reasons, row.reason)) words += (words.empty() ? "" : "; ") + std::string(row.says);
-  return words;
 }
 
 std::string why_words(const TickRecord& tick, const ControlLoop& loop, const RobotModel& model,

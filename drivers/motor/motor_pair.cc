@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+
+#include "hal/shown_text.h"
 
 namespace jaywalk {
 namespace {
@@ -224,13 +225,10 @@ double ShownReports::per_second() const noexcept { return readings_ / to_seconds
 std::string ShownReports::remedy() const {
   const double report_s = to_seconds(shown_for()) / std::max(readings_, 1);
   const double late_s = std::max(to_seconds(longest_) - report_s, 0.0);
-  std::array<char, 200> text{};
-  std::snprintf(text.data(), text.size(),
-                report_s <= kLongestReport_s
-                    ? "write report_ms = %.0f and report_late_ms = %.0f in [drive], or have it published more often"
-                    : "have it published at least 4 times a second (now every %.0f ms, up to %.0f ms late)",
-                std::ceil(1e3 * report_s), 10.0 * std::ceil(100.0 * late_s));
-  return text.data();
+  return formatted(report_s <= kLongestReport_s
+                       ? "write report_ms = %.0f and report_late_ms = %.0f in [drive], or have it published more often"
+                       : "have it published at least 4 times a second (now every %.0f ms, up to %.0f ms late)",
+                   std::ceil(1e3 * report_s), 10.0 * std::ceil(100.0 * late_s));
 }
 
 }  // namespace jaywalk

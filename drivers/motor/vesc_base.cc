@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <utility>
 
+#include "hal/shown_text.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk::vesc {
@@ -66,12 +66,11 @@ std::string VescBase::proof_line(std::size_t index) const {
   const auto in_ms = [](Duration d) {
     return static_cast<int>(std::chrono::duration_cast<std::chrono::milliseconds>(d).count());
   };
-  std::array<char, 200> text{};
-  std::snprintf(text.data(), text.size(), "timeout: wanted %d to %d ms, reads %u ms, then brakes with %.1f A%s",
-                in_ms(setup_.timeout_least), in_ms(setup_.timeout_most),
-                static_cast<unsigned>(seen.settings->timeout_ms), seen.settings->brake_current_a,
-                is_proved_by(*seen.settings) ? kMinimumErpm : ": NOT PROVED");
-  return who(index) + text.data();
+  const std::string text =
+      formatted("timeout: wanted %d to %d ms, reads %u ms, then brakes with %.1f A%s", in_ms(setup_.timeout_least),
+                in_ms(setup_.timeout_most), static_cast<unsigned>(seen.settings->timeout_ms),
+                seen.settings->brake_current_a, is_proved_by(*seen.settings) ? kMinimumErpm : ": NOT PROVED");
+  return who(index) + text;
 }
 
 std::string VescBase::proof_remedy(std::size_t index) const {

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "drivers/laser/scanner_setup.h"
 #include "firmware/robot/commissioned.h"
+#include "hal/shown_text.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk {
@@ -43,10 +43,9 @@ void require_fan(ScannerConnection& laser, const LaserModel& model) {
   const double off_rad = std::fabs(swept_rad - model.fov_rad);
   const bool same = off_rad < least_off_rad || (turns && std::fabs(model.fov_rad - 2.0 * kPi) < least_off_rad);
   if (scan.beam_count == model.beams && same) return;
-  char differs[120];
-  std::snprintf(differs, sizeof differs, ": scans of %u beams over %.1f degrees, and the file says %u over %.1f",
-                static_cast<unsigned>(scan.beam_count), swept_rad * 180.0 / kPi, static_cast<unsigned>(model.beams),
-                model.fov_rad * 180.0 / kPi);
+  const std::string differs = formatted(": scans of %u beams over %.1f degrees, and the file says %u over %.1f",
+                                        static_cast<unsigned>(scan.beam_count), swept_rad * 180.0 / kPi,
+                                        static_cast<unsigned>(model.beams), model.fov_rad * 180.0 / kPi);
   throw StartupError(laser.name() + differs, "correct [laser] beams and fov_deg");
 }
 

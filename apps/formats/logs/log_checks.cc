@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "hal/shown_text.h"
 #include "hal/types/errors.h"
@@ -179,10 +178,8 @@ void remark_gaps(RecordedLog& log, const std::string& file) {
   for (std::size_t k = 1; k < log.scans.size(); ++k) {
     const double gap_s = to_seconds(log.scans[k].stamp - log.scans[k - 1].stamp);
     if (gap_s < least_s || ++gaps > kMostTold) continue;
-    char text[64];
-    std::snprintf(text, sizeof text, "%s%.1f s from %.1f s on", told.empty() ? "" : ", ", gap_s,
-                  to_seconds(log.scans[k - 1].stamp - log.scans.front().stamp));
-    told += text;
+    told += formatted("%s%.1f s from %.1f s on", told.empty() ? "" : ", ", gap_s,
+                      to_seconds(log.scans[k - 1].stamp - log.scans.front().stamp));
   }
   if (gaps > kMostTold) told += " and " + std::to_string(gaps - kMostTold) + " more";
   if (gaps > 0) log.add_remark(file + ": no scans for " + told);
@@ -274,9 +271,8 @@ void compare_times(RecordedLog& log, const std::string& odometry_name) {
   const double all_s = to_seconds(log.scans.back().stamp - log.scans.front().stamp);
   const double without_s = all_s - to_seconds(end - begin);
   if (without_s < kMostWithoutS) return;
-  char text[80];
-  std::snprintf(text, sizeof text, ": nothing of %.1f of the %.1f s of scans: no wheels there", without_s, all_s);
-  log.add_remark(odometry_name + text);
+  log.add_remark(odometry_name +
+                 formatted(": nothing of %.1f of the %.1f s of scans: no wheels there", without_s, all_s));
 }
 
 bool add_scan(LogScans& scans, const LineFile& file, const RecordedScan& scan, std::size_t first_word,
