@@ -3,7 +3,6 @@
 #include <cmath>
 #include <limits>
 
-#include "apps/report/picture/cairo_library.h"
 #include "apps/report/picture/canvas.h"
 #include "apps/report/picture/field_layer.h"
 #include "apps/report/picture/run_layers.h"

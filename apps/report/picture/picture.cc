@@ -5,7 +5,6 @@
 #include <cstdio>
 #include <functional>
 
-#include "apps/report/picture/cairo_library.h"
 #include "apps/report/picture/canvas.h"
 #include "apps/report/picture/field_layer.h"
 #include "apps/report/picture/run_layers.h"
@@ -265,7 +264,7 @@ void draw_map(Canvas& canvas, const MapFrame& to_sheet, const PictureScene& scen
 
 }  // namespace
 
-bool can_draw_pictures() { return cairo_library() != nullptr; }
+bool can_draw_pictures() { return load_cairo() != nullptr; }
 
 void draw_picture(const PictureScene& scene, const std::string& file) {
   const MapFrame to_sheet(filled_out(scene.extent), kMapCorner, kMapMost);
