@@ -127,22 +127,10 @@ std::optional<Heartbeat> decode_heartbeat(const CanFrame& frame) noexcept {
   return std::nullopt;
 }
 
-CanFrame emergency_frame(const Emergency& emergency) noexcept {
-  CanFrame frame;
-  frame.id = kEmergencyBase + emergency.node;
-  frame.size = 8;
-  wire::put_little_endian(emergency.error_code, frame.bytes);
-  frame.bytes[2] = emergency.error_register;
-  std::copy(emergency.maker_bytes.begin(), emergency.maker_bytes.end(), frame.bytes.begin() + 3);
-  return frame;
-}
-
 std::optional<Emergency> decode_emergency(const CanFrame& frame) noexcept {
   const std::uint8_t node = node_of(frame, kEmergencyBase);
   if (node == 0 || frame.size != 8) return std::nullopt;
-  Emergency emergency{node, wire::little_endian<std::uint16_t>(frame.payload()), frame.bytes[2], {}};
-  std::copy(frame.bytes.begin() + 3, frame.bytes.end(), emergency.maker_bytes.begin());
-  return emergency;
+  return Emergency{node, wire::little_endian<std::uint16_t>(frame.payload())};
 }
 
 std::string_view emergency_class(std::uint16_t error_code) noexcept {

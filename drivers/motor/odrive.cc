@@ -3,17 +3,17 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstdio>
 
 #include "drivers/wire/byte_reader.h"
 #include "drivers/wired_drive.h"
+#include "hal/shown_text.h"
 
 namespace jaywalk::odrive {
 namespace {
 
-constexpr std::uint32_t kHeartbeat = 0x01, kEstop = 0x02, kGetError = 0x03, kWriteParameter = 0x04,
-                        kSetAxisState = 0x07, kEstimates = 0x09, kSetControllerMode = 0x0B, kSetInputVelocity = 0x0D,
-                        kReboot = 0x16, kClearErrors = 0x18, kUpdateMode = 0x1F;
+constexpr std::uint32_t kHeartbeat = 0x01, kEstop = 0x02, kWriteParameter = 0x04, kSetAxisState = 0x07,
+                        kEstimates = 0x09, kSetControllerMode = 0x0B, kSetInputVelocity = 0x0D, kReboot = 0x16,
+                        kClearErrors = 0x18, kUpdateMode = 0x1F;
 constexpr std::uint32_t kVelocityControl = 2, kPassThrough = 1, kVelocityRamp = 2;
 
 CanFrame command(std::uint8_t node, std::uint32_t number, std::uint8_t size, std::uint32_t first = 0,
@@ -38,11 +38,7 @@ constexpr Duration kFeeding = std::chrono::milliseconds(10);  ///< well within a
 constexpr double kStill_radps = 0.05;                         ///< noise of an encoder at rest
 constexpr double kHeld_radps = 0.3;  ///< and of one whose motor is held: 3 cm/s at a wheel of 0.1 m
 
-std::string in_hex(std::uint32_t number) {
-  std::array<char, 16> text{};
-  std::snprintf(text.data(), text.size(), "%08Xh", static_cast<unsigned>(number));
-  return text.data();
-}
+std::string in_hex(std::uint32_t number) { return formatted("%08Xh", static_cast<unsigned>(number)); }
 
 }  // namespace
 
@@ -82,10 +78,6 @@ std::optional<Message> decode(const CanFrame& frame) noexcept {
       const Heartbeat heartbeat{reader.little<std::uint32_t>(), reader.little<std::uint8_t>(),
                                 reader.little<std::uint8_t>()};
       return reader.ok() ? std::optional(Message{node, heartbeat}) : std::nullopt;
-    }
-    case kGetError: {
-      const Errors errors{reader.little<std::uint32_t>(), reader.little<std::uint32_t>()};
-      return reader.ok() ? std::optional(Message{node, errors}) : std::nullopt;
     }
     case kEstimates: return decode_estimates(node, reader);
     default: return std::nullopt;

@@ -44,14 +44,9 @@ struct EncoderEstimates {
   float velocity_turns_per_s = 0.0F;
 };
 
-struct Errors {
-  std::uint32_t active = 0;
-  std::uint32_t disarm_reason = 0;
-};
-
 struct Message {
   std::uint8_t node = 0;
-  std::variant<Heartbeat, EncoderEstimates, Errors> content;
+  std::variant<Heartbeat, EncoderEstimates> content;
 };
 
 /// Whether `frame` is one that only a controller sends to `node`: a command that sets something, or a request. Any of

@@ -10,7 +10,7 @@ namespace jaywalk::vesc {
 namespace {
 
 constexpr std::uint32_t kSetCurrent = 1, kSetBrakeCurrent = 2, kSetErpm = 3, kPiece = 5, kLongPiece = 6, kPiecesEnd = 7,
-                        kShort = 8, kStatus = 9, kStatus4 = 16, kStatus5 = 27;
+                        kShort = 8, kStatus = 9, kStatus5 = 27;
 // Commands inside messages 5 to 8 (COMM_GET_APPCONF, COMM_GET_VALUES_SELECTIVE), and the mask of the fault code.
 constexpr std::uint8_t kGetSettings = 17, kGetValues = 50;
 constexpr std::uint32_t kFaultCode = 1U << 15U;
@@ -24,13 +24,11 @@ CanFrame command(std::uint8_t controller, std::uint32_t number, std::int32_t val
   return frame;
 }
 
-std::int32_t word(wire::ByteReader& reader) noexcept { return static_cast<std::int32_t>(reader.big<std::uint32_t>()); }
-double half_word(wire::ByteReader& reader) noexcept { return static_cast<std::int16_t>(reader.big<std::uint16_t>()); }
-
+/// The content is the first number of a message that has `bytes` bytes at least.
 template <class Content>
-std::optional<Message> message_of(std::uint8_t controller, const Content& content,
-                                  const wire::ByteReader& reader) noexcept {
-  return reader.ok() ? std::optional(Message{controller, content}) : std::nullopt;
+std::optional<Message> message_of(std::uint8_t controller, wire::ByteReader reader, std::size_t bytes) noexcept {
+  if (reader.rest().size() < bytes) return std::nullopt;
+  return Message{controller, Content{static_cast<std::int32_t>(reader.big<std::uint32_t>())}};
 }
 
 std::optional<Message> decode_piece(std::uint8_t to, wire::ByteReader reader, bool is_long) noexcept {
@@ -111,19 +109,13 @@ std::optional<Message> decode(const CanFrame& frame) noexcept {
   if (!frame.extended || frame.remote) return std::nullopt;
   const auto controller = static_cast<std::uint8_t>(frame.id & 0xFFU);
   wire::ByteReader reader(frame.payload());
-  // Braced lists are evaluated in the order written.
   switch (frame.id >> 8U) {
     case kPiece:
     case kLongPiece: return decode_piece(controller, reader, frame.id >> 8U == kLongPiece);
     case kPiecesEnd: return decode_end(controller, reader);
     case kShort: return decode_fault(controller, reader);
-    case kStatus:
-      return message_of(controller, Status{word(reader), half_word(reader) / 10.0, half_word(reader) / 1000.0}, reader);
-    case kStatus4:
-      return message_of(controller,
-                        Temperatures{half_word(reader) / 10.0, half_word(reader) / 10.0, half_word(reader) / 10.0},
-                        reader);
-    case kStatus5: return message_of(controller, Travel{word(reader), half_word(reader) / 10.0}, reader);
+    case kStatus: return message_of<Status>(controller, reader, 8);   // current and duty cycle follow
+    case kStatus5: return message_of<Travel>(controller, reader, 6);  // the supply voltage follows
     default: return std::nullopt;
   }
 }

@@ -27,19 +27,10 @@ namespace jaywalk::vesc {
 
 struct Status {  ///< message 9
   std::int32_t erpm = 0;
-  double current_a = 0.0;
-  double duty = 0.0;  ///< -1 to 1
-};
-
-struct Temperatures {  ///< message 16
-  double fet_celsius = 0.0;
-  double motor_celsius = 0.0;
-  double input_current_a = 0.0;
 };
 
 struct Travel {                                ///< message 27
   std::int32_t sixths_of_electrical_turn = 0;  ///< wraps
-  double input_v = 0.0;
 };
 
 /// A piece of a long message to `Message::controller`: messages 5 and 6.
@@ -62,7 +53,7 @@ struct Fault {  ///< message 8 with the answer to ask_fault
 
 struct Message {
   std::uint8_t controller = 0;  ///< sender; of the last three kinds, receiver
-  std::variant<Status, Temperatures, Travel, Piece, PiecesEnd, Fault> content;
+  std::variant<Status, Travel, Piece, PiecesEnd, Fault> content;
 };
 
 /// Whether `frame` is one that only a controller sends to `controller` or to all (255): what sets something, a
