@@ -296,8 +296,6 @@ std::string command_of(const PlannedRun& run) {
 RunPool::RunPool(std::filesystem::path program, std::filesystem::path folder)
     : program_(std::move(program)), folder_(std::move(folder)) {}
 
-RunPool::~RunPool() { kill_all(); }
-
 void RunPool::start(std::size_t index, const PlannedRun& run, const std::filesystem::path& out) {
   const std::string said = (out / "said.txt").string();
   std::vector<std::string> words{program_.string()};

@@ -11,7 +11,6 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "apps/campaign/ride.h"
 #include "apps/campaign/statistics.h"
 #include "hal/shown_text.h"
 #include "hal/text_file.h"
@@ -262,8 +261,6 @@ CampaignFolder::CampaignFolder(const std::filesystem::path& path, const std::str
   throw StartupError(path.string() + ": holds another campaign, or runs of other scenarios or of another build",
                      "choose another --out, or remove it");
 }
-
-CampaignFolder::~CampaignFolder() { ::close(held_); }
 
 std::filesystem::path CampaignFolder::work(const PlannedRun& run) const {
   return place_of(path_, run).string() + ".part-" + share_;

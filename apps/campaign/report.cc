@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "apps/campaign/charts.h"
 #include "apps/campaign/statistics.h"
 #include "apps/report/markup.h"
 #include "hal/text_file.h"

@@ -28,8 +28,6 @@ CsvFile::CsvFile(const std::string& file, std::string_view header) : file_(file)
   rows_.append(header).append("\n");
 }
 
-CsvFile::~CsvFile() { close(); }
-
 bool CsvFile::close() {
   write_out();
   return file_.close();

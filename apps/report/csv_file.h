@@ -18,7 +18,7 @@ class CsvFile {
  public:
   /// Throws StartupError when the file cannot be made.
   CsvFile(const std::string& file, std::string_view header);
-  ~CsvFile();
+  ~CsvFile() { close(); }
   CsvFile(const CsvFile&) = delete;
   CsvFile& operator=(const CsvFile&) = delete;
 

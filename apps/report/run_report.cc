@@ -7,12 +7,12 @@
 #include <cerrno>
 #include <cmath>
 #include <cstring>
-#include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <system_error>
 
 #include "firmware/control_loop.h"
+#include "hal/text_file.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk {
@@ -114,14 +114,6 @@ void RunTables::add(const RunSample& sample) {
   if (age(written_at_, sample.record.now) < kLongestWait) return;
   for (CsvFile* const table : {&robot_, &movers_, &tracks_}) table->write_out();
   written_at_ = sample.record.now;
-}
-
-void RunTables::close() {
-  for (CsvFile* const table : {&robot_, &movers_, &tracks_}) table->close();
-}
-
-bool RunTables::is_losing() const noexcept {
-  return robot_.has_failed() || movers_.has_failed() || tracks_.has_failed();
 }
 
 std::vector<std::string> RunTables::complaints() const {
@@ -266,12 +258,7 @@ std::string RunReport::finish(const RunEnd& end) {
   if (tables_) tables_->close();
   reserve_.reset();
   std::string text = summary(end);
-  if (!folder_.empty()) {
-    std::ofstream file(folder_ / "summary.json", std::ios::binary);
-    file << text;
-    if (!file.flush())
-      throw StartupError((folder_ / "summary.json").string() + ": cannot be written", "free some disk");
-  }
+  if (!folder_.empty()) write_text(folder_ / "summary.json", text, "free some disk");
   return text;
 }
 

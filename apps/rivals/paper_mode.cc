@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "apps/rivals/baseline.h"
-#include "hal/maps/occupancy.h"
+#include "hal/maps/image_file.h"
 #include "hal/sim/walls.h"
 #include "hal/text_file.h"
 #include "hal/types/errors.h"

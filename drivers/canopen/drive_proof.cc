@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
-#include <cstdio>
 #include <initializer_list>
+
+#include "hal/shown_text.h"
 
 namespace jaywalk::canopen {
 namespace {
@@ -16,11 +17,7 @@ std::uint32_t cut(std::uint32_t value, std::uint8_t bytes) noexcept {
   return bytes >= 4 ? value : value & ((1U << (8U * bytes)) - 1U);
 }
 
-std::string hex(std::uint32_t number, int digits) {
-  std::array<char, 16> text{};
-  std::snprintf(text.data(), text.size(), "%0*Xh", digits, static_cast<unsigned>(number));
-  return text.data();
-}
+std::string hex(std::uint32_t number, int digits) { return formatted("%0*Xh", digits, static_cast<unsigned>(number)); }
 
 std::string name_of(const ProofItem& item) {
   const ObjectAddress& address = item.wanted.address;

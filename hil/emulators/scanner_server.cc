@@ -95,12 +95,12 @@ void ScannerServer::measure_until_now(Time now) {
 
 void ScannerServer::tell_measured(Time now) {
   for (; told_ + beams_per_message_ <= measured_; told_ += beams_per_message_) {
-    const std::span<const float> part = std::span<const float>(range_m_).subspan(told_, beams_per_message_);
+    const Ranges part = Ranges(range_m_).subspan(told_, beams_per_message_);
     if (streaming_) send(message_of(told_, part, began_, now), now);
   }
 }
 
-void ScannerServer::send(std::vector<std::uint8_t> message, Time now) {
+void ScannerServer::send(Message message, Time now) {
   if (noise() < 256.0 * damaged_share_) message[message.size() / 2] ^= 0x5AU;
   switch (fault_) {
     case ScannerFault::kSilence:

@@ -1,10 +1,10 @@
-#include "planner/cost_to_go/far_guide.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
+
+#include "planner/cost_to_go/guide_field.h"
 
 namespace jaywalk::field {
 namespace {

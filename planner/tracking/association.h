@@ -1,7 +1,6 @@
 #pragma once
 // Which detection is which target's, and where that says the target is.
 #include "planner/scan/scan_points.h"
-#include "planner/tracking/observation.h"
 #include "planner/tracking/target.h"
 
 namespace jaywalk {

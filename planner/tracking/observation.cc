@@ -1,10 +1,9 @@
-#include "planner/tracking/observation.h"
-
 #include <algorithm>
 #include <cmath>
 
 #include "hal/types/trig.h"
 #include "planner/scan/line_of_sight.h"
+#include "planner/tracking/target.h"
 
 namespace jaywalk {
 namespace {

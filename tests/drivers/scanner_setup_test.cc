@@ -3,7 +3,7 @@
 #include <string>
 
 #include "hal/types/errors.h"
-#include "hil/emulators/sick_server.h"
+#include "hil/emulators/network_scanners.h"
 #include "tests/drivers/hand_clock.h"
 #include "tests/support/catch.h"
 

@@ -39,10 +39,6 @@ TextLines::TextLines(const std::filesystem::path& file, const std::string& expec
 
 TextLines::~TextLines() = default;
 
-void TextLines::refuse(const std::string& cause, const std::string& remedy) const {
-  throw StartupError(name() + ":" + std::to_string(line_) + ": " + cause, remedy);
-}
-
 bool TextLines::next() {
   text_.clear();
   ++line_;
@@ -65,8 +61,6 @@ bool TextLines::next() {
   if (line_ == 1) drop_byte_order_mark(text_);
   return true;
 }
-
-LineFile::LineFile(const std::filesystem::path& file) : lines_(file, "give the path of a recording") {}
 
 void LineFile::split() {
   words_.clear();

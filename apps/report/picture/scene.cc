@@ -205,10 +205,6 @@ Playback::Playback(const std::vector<DrivenPose>& driven, std::size_t most_steps
   steps_ = std::max<std::size_t>(2, std::min(wanted, most_steps));
 }
 
-Time Playback::time_of(std::size_t step) const {
-  return begin_ + duration_from_seconds(lasts_s_ * static_cast<double>(step) / static_cast<double>(steps_ - 1));
-}
-
 std::vector<Pose2> Playback::robot() const {
   std::vector<Pose2> poses;
   for (std::size_t step = 0; step < steps_ && !driven_.empty(); ++step) {
