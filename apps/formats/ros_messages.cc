@@ -1,5 +1,3 @@
-#include "apps/formats/ros_messages.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,6 +6,7 @@
 #include <sstream>
 #include <vector>
 
+#include "apps/formats/ros_topics.h"
 #include "apps/formats/wire_reader.h"
 #include "hal/shown_text.h"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <string>
 
-#include "apps/formats/ros_messages.h"
+#include "apps/formats/ros_topics.h"
 #include "hal/text_file.h"
 
 namespace jaywalk {

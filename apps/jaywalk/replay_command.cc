@@ -16,7 +16,7 @@
 #include "apps/setup/mount_search.h"
 #include "apps/view/live_view.h"
 #include "apps/why/recorded_run.h"
-#include "firmware/loop_runner.h"
+#include "firmware/control_loop.h"
 #include "firmware/recording/map_files.h"
 #include "firmware/recording/recorded_hal.h"
 #include "firmware/recording/run_folders.h"

@@ -11,7 +11,7 @@
 #include "apps/report/run_observer.h"
 #include "apps/rivals/paper_mode.h"
 #include "apps/view/live_view.h"
-#include "firmware/loop_runner.h"
+#include "firmware/control_loop.h"
 #include "firmware/program/program.h"
 #include "firmware/recording/map_files.h"
 #include "firmware/safety/stop_zone.h"

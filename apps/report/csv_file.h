@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "firmware/recording/append_file.h"
+#include "firmware/recording/recorder.h"
 #include "hal/types/time.h"
 
 namespace jaywalk {

@@ -4,8 +4,8 @@
 #include <set>
 
 #include "apps/setup/robot_setup.h"
-#include "drivers/arcos/arcos.h"
-#include "drivers/can/byte_bus.h"
+#include "drivers/arcos/arcos_base.h"
+#include "drivers/can/can_bus.h"
 #include "drivers/canopen/sdo_client.h"
 #include "drivers/motor/odrive.h"
 #include "drivers/motor/vesc.h"

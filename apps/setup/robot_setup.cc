@@ -6,7 +6,7 @@
 #include <initializer_list>
 #include <set>
 
-#include "drivers/laser/scanner_setup.h"
+#include "drivers/laser/scanner_connection.h"
 #include "hal/robot_model_file.h"
 #include "hal/shown_text.h"
 #include "hal/types/errors.h"

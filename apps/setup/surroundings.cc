@@ -9,7 +9,7 @@
 #include "apps/setup/robot_setup.h"
 #include "drivers/can/can_interface.h"
 #include "drivers/can/socketcan.h"
-#include "drivers/laser/scanner_setup.h"
+#include "drivers/laser/scanner_connection.h"
 #include "hal/shown_text.h"
 #include "hal/types/errors.h"
 

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <utility>
 
-#include "drivers/can/byte_bus.h"
+#include "drivers/can/can_bus.h"
 #include "drivers/wired_drive.h"
 #include "hal/shown_text.h"
 

@@ -8,7 +8,6 @@
 #include "drivers/can/can_bus.h"
 #include "drivers/canopen/cia402.h"
 #include "drivers/canopen/drive_proof.h"
-#include "drivers/stop_ladder.h"
 #include "drivers/wired_drive.h"
 #include "hal/types/fixed_vector.h"
 #include "hal/types/wheels.h"

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "drivers/can/can_bus.h"
-#include "drivers/stop_ladder.h"
 #include "drivers/wired_drive.h"
 #include "hal/types/errors.h"
 #include "hal/types/robot_model.h"

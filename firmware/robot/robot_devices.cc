@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "drivers/laser/scanner_setup.h"
+#include "drivers/laser/scanner_connection.h"
 #include "firmware/robot/commissioned.h"
 #include "hal/shown_text.h"
 #include "hal/types/errors.h"

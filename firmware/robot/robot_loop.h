@@ -12,7 +12,7 @@
 #include "drivers/can/can_bus.h"
 #include "drivers/laser/scanner_connection.h"
 #include "drivers/wired_drive.h"
-#include "firmware/loop_runner.h"
+#include "firmware/control_loop.h"
 #include "firmware/robot/operator_desk.h"
 #include "firmware/robot/realtime.h"
 #include "firmware/robot/service_manager.h"

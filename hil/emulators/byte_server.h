@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "drivers/can/byte_bus.h"
+#include "drivers/can/can_bus.h"
 #include "drivers/wire/byte_reader.h"
 #include "drivers/wire/file_descriptor.h"
 

@@ -8,8 +8,8 @@
 
 #include "drivers/arcos/arcos_base.h"
 #include "drivers/can/in_process_bus.h"
-#include "drivers/motor/odrive_base.h"
-#include "drivers/motor/vesc_base.h"
+#include "drivers/motor/odrive.h"
+#include "drivers/motor/vesc.h"
 #include "hal/types/errors.h"
 #include "hil/emulators/arcos_board.h"
 #include "hil/emulators/motor_node.h"

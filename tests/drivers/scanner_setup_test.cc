@@ -1,7 +1,6 @@
-#include "drivers/laser/scanner_setup.h"
-
 #include <string>
 
+#include "drivers/laser/scanner_connection.h"
 #include "hal/types/errors.h"
 #include "hil/emulators/network_scanners.h"
 #include "tests/drivers/hand_clock.h"

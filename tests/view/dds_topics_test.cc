@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <thread>
 
-#include "apps/formats/ros_messages.h"
+#include "apps/formats/ros_topics.h"
 #include "tests/support/catch.h"
 
 using namespace jaywalk;

@@ -9,7 +9,7 @@
 #include <cstring>
 #include <string>
 
-#include "drivers/arcos/arcos.h"
+#include "drivers/arcos/arcos_base.h"
 #include "drivers/can/socketcan.h"
 #include "drivers/canopen/cia402.h"
 #include "drivers/canopen/drive_proof.h"
