@@ -19,8 +19,6 @@ class CsvFile {
   /// Throws StartupError when the file cannot be made.
   CsvFile(const std::string& file, std::string_view header);
   ~CsvFile() { close(); }
-  CsvFile(const CsvFile&) = delete;
-  CsvFile& operator=(const CsvFile&) = delete;
 
   CsvFile& number(double value);
   CsvFile& count(std::uint64_t value);

@@ -72,8 +72,6 @@ class ScannerConnection final : public LaserScanner {
                     const ConnectionTiming& timing = {})
       : ScannerConnection(std::make_unique<wire::ByteLink>(std::move(endpoint)), std::move(protocol), clock, timing) {}
   ~ScannerConnection() override;
-  ScannerConnection(const ScannerConnection&) = delete;
-  ScannerConnection& operator=(const ScannerConnection&) = delete;
 
   /// `priority` of SCHED_FIFO, 1 to 98, for the thread; 0: an ordinary one. False where the kernel does not permit it:
   /// then it is an ordinary one, started all the same.

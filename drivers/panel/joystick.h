@@ -147,8 +147,6 @@ class JoystickWatch {
       : clock_(clock), joystick_(std::move(setup), bus) {}
   /// Waits for the thread.
   ~JoystickWatch();
-  JoystickWatch(const JoystickWatch&) = delete;
-  JoystickWatch& operator=(const JoystickWatch&) = delete;
 
   /// Starts the thread, with a priority of SCHED_FIFO (0: an ordinary one).
   void start(int priority);

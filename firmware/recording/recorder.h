@@ -67,8 +67,6 @@ class RecordingWriter {
   RecordingWriter(const std::string& file, const std::string& setup);
   /// Writes the end mark.
   ~RecordingWriter();
-  RecordingWriter(const RecordingWriter&) = delete;
-  RecordingWriter& operator=(const RecordingWriter&) = delete;
 
   static constexpr Duration kLongestWait = std::chrono::milliseconds(100);
 

@@ -58,8 +58,6 @@ class ArmedMark {
   ArmedMark(const std::filesystem::path& folder, std::string robot);
   /// An orderly end takes the file away.
   ~ArmedMark();
-  ArmedMark(const ArmedMark&) = delete;
-  ArmedMark& operator=(const ArmedMark&) = delete;
 
   /// Whether the run before this one left it.
   [[nodiscard]] bool was_left() const noexcept { return was_left_; }

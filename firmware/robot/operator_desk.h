@@ -153,8 +153,6 @@ class OperatorControls {
  public:
   /// `drive` and `clock` outlive it.
   OperatorControls(const RobotFile& file, WiredDrive& drive, Clock& clock, OperatorDesk::RestartBus restart_bus);
-  OperatorControls(const OperatorControls&) = delete;
-  OperatorControls& operator=(const OperatorControls&) = delete;
 
   /// Start-up only: looks at the joystick once and starts its thread, with a priority of SCHED_FIFO (0: an ordinary
   /// one). Throws StartupError where its dead man could stay held when its link has died.

@@ -24,8 +24,6 @@ class ImageFile {
   /// Throws StartupError "FILE: cause; remedy" for anything else, or more than 3,000 million pixels.
   explicit ImageFile(const std::filesystem::path& file);
   ~ImageFile();
-  ImageFile(const ImageFile&) = delete;
-  ImageFile& operator=(const ImageFile&) = delete;
 
   [[nodiscard]] std::int32_t width() const;
   [[nodiscard]] std::int32_t height() const;
