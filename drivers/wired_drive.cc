@@ -214,8 +214,6 @@ StopStage StopLadder::update(Time now, bool stopping, bool trouble,
   return stage_;
 }
 
-void StopLadder::reset() noexcept { *this = StopLadder(limits_); }
-
 // What a wheel was told holds until now; what it is told in this cycle counts from now on.
 void StopLadder::follow_orders(Time now, const std::array<WheelFeedback, 2>& wheels) noexcept {
   const bool is_first = followed_ == kNever;
@@ -243,10 +241,6 @@ void StopLadder::begin(Time now, const std::array<WheelFeedback, 2>& wheels) noe
 
 // Written so that a ramp that is no number is over.
 bool StopLadder::is_over(Time now) const noexcept { return !(to_seconds(now - ordered_) <= longest_s_); }
-
-bool StopLadder::is_fresh(Time now, const WheelFeedback& wheel) const noexcept {
-  return age(wheel.stamp, now) <= limits_.fresh;
-}
 
 bool StopLadder::is_kept(Time now, const std::array<WheelFeedback, 2>& wheels) const noexcept {
   const double braked = limits_.brake_radps2 * to_seconds(now - ordered_ - limits_.response);

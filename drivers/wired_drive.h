@@ -186,7 +186,7 @@ class StopLadder {
                                  const std::array<WheelFeedback, 2>& wheels) noexcept;
   [[nodiscard]] StopStage stage() const noexcept { return stage_; }
   /// A person's reset edge: the next stop begins anew.
-  void reset() noexcept;
+  void reset() noexcept { *this = StopLadder(limits_); }
 
  private:
   /// What each wheel was told, falling with the ramp at most.
@@ -196,7 +196,9 @@ class StopLadder {
   /// Whether the feedback shows what the ramp allows now.
   [[nodiscard]] bool is_kept(Time now, const std::array<WheelFeedback, 2>& wheels) const noexcept;
   [[nodiscard]] bool is_at_rest(Time now, const std::array<WheelFeedback, 2>& wheels) const noexcept;
-  [[nodiscard]] bool is_fresh(Time now, const WheelFeedback& wheel) const noexcept;
+  [[nodiscard]] bool is_fresh(Time now, const WheelFeedback& wheel) const noexcept {
+    return age(wheel.stamp, now) <= limits_.fresh;
+  }
   void climb(Time now) noexcept;
 
   StopLimits limits_;

@@ -129,10 +129,6 @@ void ControlLoop::think_on(TickRecord& t, bool new_scan) noexcept {
   if (t.plan_asked) asked_ = t.now, planner_.submit(motion_->request(world));
 }
 
-bool ControlLoop::is_steered(const TickRecord& t) const noexcept {
-  return t.input.steers && setup_.steering != StickUse::kNone;
-}
-
 motion::Intent ControlLoop::intent(const TickRecord& t) const noexcept {
   using Kind = motion::Intent::Kind;
   const bool counts = supervisor_.takes_wishes();

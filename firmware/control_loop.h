@@ -53,7 +53,9 @@ class ControlLoop {
   void send(TickRecord& t) noexcept;
   /// With a new scan or plan: how to move from the next tick on, and what to plan next.
   void think_on(TickRecord& t, bool new_scan) noexcept;
-  [[nodiscard]] bool is_steered(const TickRecord& t) const noexcept;
+  [[nodiscard]] bool is_steered(const TickRecord& t) const noexcept {
+    return t.input.steers && setup_.steering != StickUse::kNone;
+  }
   [[nodiscard]] motion::Intent intent(const TickRecord& t) const noexcept;
   [[nodiscard]] motion::World world(const TickRecord& t) const noexcept;
   /// At that scan, its scanner's newest.

@@ -66,10 +66,6 @@ bool RecordedRun::lies_in(const std::filesystem::path& folder) const {
   return std::filesystem::equivalent(this->folder(), folder, missing);
 }
 
-double RecordedRun::share_read() const {
-  return (static_cast<double>(opened_ - 1) + reader_->share_read()) / static_cast<double>(files_.size());
-}
-
 bool RecordedRun::step() {
   if (!std::exchange(begun_, true)) return true;  // the first, which is read already
   while (!reader_->next(record_))

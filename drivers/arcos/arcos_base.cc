@@ -184,10 +184,6 @@ void ArcosBase::take_encoders(const Encoders& counts, Time stamp) noexcept {
   counts_ = counts;
 }
 
-void Stopper::brake() noexcept {
-  in_frames(packet_of({Command::kStop}).on_line(), [this](const CanFrame& f) { static_cast<void>(bus_.send(f)); });
-}
-
 // The connection, which is made anew for each proof.
 
 void ArcosBase::wake(bool anew) noexcept {
@@ -211,10 +207,6 @@ bool ArcosBase::recite(std::size_t end) noexcept {
   return true;
 }
 
-void ArcosBase::begin_proof(std::size_t index) noexcept {
-  if (index == 1) shown_.begin(clock().now());
-}
-
 ProofResult ArcosBase::continue_proof(std::size_t index) noexcept {
   const Time now = clock().now();
   if (index == 0) {
@@ -225,10 +217,6 @@ ProofResult ArcosBase::continue_proof(std::size_t index) noexcept {
   if (!shown_.is_over(now)) return ProofResult::kUnderWay;
   const bool stands = shown_.fastest_radps() <= setup_.stop.tolerance_radps;
   return stands && shown_.is_often_enough() && faults_ == 0 ? ProofResult::kPassed : ProofResult::kFailed;
-}
-
-bool ArcosBase::is_pioneer() const noexcept {
-  return settings_ && std::string_view(settings_->type.data()) == "Pioneer";
 }
 
 /// The watchdog is the last.

@@ -145,7 +145,9 @@ class ArcosBase final : public MotorPair {
   void wake(bool anew) noexcept override;
   [[nodiscard]] bool recite(std::size_t end) noexcept;
   /// Axis 0: what it is set to. Axis 1: what it shows.
-  void begin_proof(std::size_t index) noexcept override;
+  void begin_proof(std::size_t index) noexcept override {
+    if (index == 1) shown_.begin(clock().now());
+  }
   ProofResult continue_proof(std::size_t index) noexcept override;
   [[nodiscard]] ProofResult judge_settings() const noexcept;
   [[nodiscard]] std::array<Compared, 9> compared() const noexcept;
@@ -153,7 +155,9 @@ class ArcosBase final : public MotorPair {
   [[nodiscard]] std::string proof_remedy(std::size_t index) const override;
   [[nodiscard]] StartupError absence(std::size_t index) const override;
   [[nodiscard]] bool is_open() const noexcept;
-  [[nodiscard]] bool is_pioneer() const noexcept;
+  [[nodiscard]] bool is_pioneer() const noexcept {
+    return settings_ && std::string_view(settings_->type.data()) == "Pioneer";
+  }
 
   CanBus& bus_;
   BaseSetup setup_;
@@ -179,7 +183,9 @@ class Stopper final : public EmergencyBrake {
  public:
   /// `bus` outlives it and takes frames from the thread that brakes.
   explicit Stopper(CanBus& bus) noexcept : bus_(bus) {}
-  void brake() noexcept override;
+  void brake() noexcept override {
+    in_frames(packet_of({Command::kStop}).on_line(), [this](const CanFrame& f) { static_cast<void>(bus_.send(f)); });
+  }
 
  private:
   CanBus& bus_;

@@ -41,10 +41,6 @@ std::string_view name(SendResult result) noexcept {
   return "unknown result";
 }
 
-ByteBus::ByteBus(std::unique_ptr<wire::Link> link, Clock& clock) noexcept : link_(std::move(link)), clock_(clock) {
-  refill();
-}
-
 SendResult ByteBus::send(const CanFrame& frame) noexcept {
   const std::scoped_lock held(turn_);
   link_->write(frame.payload());

@@ -123,7 +123,7 @@ void in_frames(wire::Bytes bytes, Take take) noexcept {
 class ByteBus final : public CanBus {
  public:
   /// Begins to open. `clock` outlives it.
-  ByteBus(std::unique_ptr<wire::Link> link, Clock& clock) noexcept;
+  ByteBus(std::unique_ptr<wire::Link> link, Clock& clock) noexcept : link_(std::move(link)), clock_(clock) { refill(); }
 
   [[nodiscard]] SendResult send(const CanFrame& frame) noexcept override;
   [[nodiscard]] bool receive(ReceivedFrame& received) noexcept override;

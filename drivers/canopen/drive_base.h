@@ -182,15 +182,21 @@ class CanopenDriveBase final : public WiredDrive {
   void watch() noexcept;
   void latch(DriveTrouble trouble) noexcept;
   /// Keeps the first fault that a drive reports; later ones follow from it.
-  void note(const DriveFault& fault) noexcept;
+  void note(const DriveFault& fault) noexcept {
+    if (!fault_.is_told()) fault_ = fault;
+  }
 
   /// A cycle on the bus, as far as the stop has come.
   void cycle(DriveGoal goal, bool stopping, double left_radps, double right_radps) noexcept;
   void send_targets(DriveGoal goal, double left_radps, double right_radps) noexcept;
-  void send(const CanFrame& frame) noexcept;
+  void send(const CanFrame& frame) noexcept {
+    if (bus_.send(frame) != SendResult::kQueued) latch(DriveTrouble::kBusRefused);
+  }
   [[nodiscard]] bool are_at_rest() const noexcept;
   /// Both drives are enabled and show the mode that takes speeds.
-  [[nodiscard]] bool follow_speeds() const noexcept;
+  [[nodiscard]] bool follow_speeds() const noexcept {
+    return is_enabled() && axes_[0].follows_speeds() && axes_[1].follows_speeds();
+  }
 
   CanBus& bus_;
   Clock& clock_;

@@ -95,7 +95,7 @@ class SickProtocol final : public ScannerProtocol {
   void begin() noexcept override;
   [[nodiscard]] wire::Bytes to_say(Time now) noexcept override;
   [[nodiscard]] bool awaits_answer() const noexcept override { return asked_; }
-  [[nodiscard]] bool go_on_unanswered() noexcept override;
+  [[nodiscard]] bool go_on_unanswered() noexcept override { return conclude(false); }
   void hear(wire::Bytes bytes) noexcept override { stream_.append(bytes); }
   [[nodiscard]] Heard next(Time arrival, LaserScan& scan) noexcept override;
   [[nodiscard]] ProtocolCounts counts() const noexcept override;

@@ -110,14 +110,6 @@ void MotorPair::report_fault(DriveTrouble trouble, const DriveFault& fault) noex
   latch(trouble);
 }
 
-void MotorPair::note(const DriveFault& fault) noexcept {
-  if (!fault_.is_told() || fault_.kind == DriveFaultKind::kVescStill) fault_ = fault;
-}
-
-void MotorPair::withdraw(DriveFaultKind kind, std::uint8_t node) noexcept {
-  if (fault_.kind == kind && fault_.node == node) fault_ = {};
-}
-
 void MotorPair::reset() noexcept {
   if (!armed_ || proving_) return;  // a proof that is under way goes on
   trouble_ = DriveTrouble::kNone;
@@ -136,10 +128,6 @@ void MotorPair::begin_enabling() noexcept {
   awaits_zero_ = false;
   settled_ = clock_.now() + setup_.settling;
   for (std::size_t k = 0; k < axes_.size(); ++k) send_reset(k);
-}
-
-bool MotorPair::is_enabled() const noexcept {
-  return std::all_of(axes_.begin(), axes_.end(), [](const MotorAxis& a) { return a.obeys; });
 }
 
 MotorOrder MotorPair::order_now() const noexcept {
@@ -195,10 +183,6 @@ void MotorPair::disarm() noexcept {
   receive();
 }
 
-void MotorPair::send(const CanFrame& frame) noexcept {
-  if (bus_.send(frame) != SendResult::kQueued) latch(DriveTrouble::kBusRefused);
-}
-
 Duration ShownReports::shown_for() const noexcept {
   return std::max(kShownFor, duration_from_seconds(kReportsShown * times_.report_s));
 }
@@ -219,8 +203,6 @@ bool ShownReports::is_often_enough() const noexcept {
   return readings_ >= std::floor(kShareShown * stated) &&
          longest_ <= duration_from_seconds(times_.oldest_report_s()) + tick_;
 }
-
-double ShownReports::per_second() const noexcept { return readings_ / to_seconds(shown_for()); }
 
 std::string ShownReports::remedy() const {
   const double report_s = to_seconds(shown_for()) / std::max(readings_, 1);

@@ -219,10 +219,6 @@ OdriveBase::OdriveBase(CanBus& bus, Clock& clock, const BaseSetup& setup)
   require_axes(setup.axes, {"ODrive node", 0, 62});
 }
 
-std::string OdriveBase::who(std::size_t index) const {
-  return "ODrive node " + std::to_string(setup_.axes[index].node) + ": ";
-}
-
 std::string OdriveBase::inspect(std::size_t side) {
   await_motor(side);
   return who(side) + "heartbeat and encoder estimates; errors " + error_words(seen_[side].errors) +
@@ -235,10 +231,6 @@ StartupError OdriveBase::absence(std::size_t index) const {
   return {who(index) + "no encoder estimates", "set can.encoder_msg_rate_ms = 10 in the ODrive"};
 }
 
-void OdriveBase::begin_proof(std::size_t index) noexcept {
-  proofs_[index].begin(setup_.axes[index].node, {setup_.watchdog_least, setup_.watchdog_limit}, clock().now());
-}
-
 ProofResult OdriveBase::continue_proof(std::size_t index) noexcept {
   const Seen& seen = seen_[index];
   const AxisReport report{axis(index).heard, seen.expired,   seen.errors,
@@ -246,10 +238,6 @@ ProofResult OdriveBase::continue_proof(std::size_t index) noexcept {
   for (const CanFrame& frame : proofs_[index].step(clock().now(), report)) send(frame);
   return proofs_[index].result();
 }
-
-std::string OdriveBase::proof_line(std::size_t index) const { return who(index) + proofs_[index].line(); }
-
-std::string OdriveBase::proof_remedy(std::size_t index) const { return proofs_[index].remedy(); }
 
 void OdriveBase::take(const ReceivedFrame& received) noexcept {
   for (const CanAxis& axis_setup : setup_.axes)

@@ -169,12 +169,16 @@ class OdriveBase final : public MotorPair {
   void take_estimates(std::size_t index, const EncoderEstimates& estimates, Time stamp) noexcept;
   void send_order(std::size_t index, MotorOrder order, double speed_radps) noexcept override;
   void send_reset(std::size_t index) noexcept override;
-  void begin_proof(std::size_t index) noexcept override;
+  void begin_proof(std::size_t index) noexcept override {
+    proofs_[index].begin(setup_.axes[index].node, {setup_.watchdog_least, setup_.watchdog_limit}, clock().now());
+  }
   ProofResult continue_proof(std::size_t index) noexcept override;
-  [[nodiscard]] std::string proof_line(std::size_t index) const override;
-  [[nodiscard]] std::string proof_remedy(std::size_t index) const override;
+  [[nodiscard]] std::string proof_line(std::size_t index) const override { return who(index) + proofs_[index].line(); }
+  [[nodiscard]] std::string proof_remedy(std::size_t index) const override { return proofs_[index].remedy(); }
   [[nodiscard]] StartupError absence(std::size_t index) const override;
-  [[nodiscard]] std::string who(std::size_t index) const;
+  [[nodiscard]] std::string who(std::size_t index) const {
+    return "ODrive node " + std::to_string(setup_.axes[index].node) + ": ";
+  }
 
   BaseSetup setup_;
   std::array<Seen, 2> seen_;

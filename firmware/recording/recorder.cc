@@ -77,8 +77,6 @@ RecordingWriter::RecordingWriter(const std::string& file, const std::string& set
   put(check);
 }
 
-RecordingWriter::~RecordingWriter() { close(); }
-
 void RecordingWriter::put(std::span<const unsigned char> bytes) noexcept {
   if (!bytes.empty()) std::memcpy(block_.data() + used_, bytes.data(), bytes.size());
   used_ += bytes.size();
@@ -136,10 +134,6 @@ RecordingReader::RecordingReader(const std::string& file, FilePart part)
   bytes_ = std::min(part.bytes, static_cast<std::uint64_t>(std::filesystem::file_size(file, unknown)));
   read_header();
 }
-
-double RecordingReader::share_read() const { return stream_.bytes_used() / static_cast<double>(bytes_); }
-
-bool RecordingReader::read(unsigned char* to, std::size_t bytes) { return stream_.read(to, bytes) == bytes; }
 
 void RecordingReader::damaged(const std::string& cause) const {
   throw StartupError(file_ + ": byte " + std::to_string(position_) + ": " + cause,
@@ -266,8 +260,6 @@ AppendFile::AppendFile(const std::string& file)
                        "choose an --out folder that exists and may be written");
   }
 }
-
-AppendFile::~AppendFile() { close(); }
 
 std::size_t AppendFile::append(std::span<const unsigned char> bytes) noexcept {
   std::size_t taken = 0;

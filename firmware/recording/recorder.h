@@ -21,7 +21,7 @@ class AppendFile {
  public:
   /// Makes the file, or empties it. Throws StartupError where it cannot.
   explicit AppendFile(const std::string& file);
-  ~AppendFile();
+  ~AppendFile() { close(); }
   AppendFile(const AppendFile&) = delete;
   AppendFile& operator=(const AppendFile&) = delete;
 
@@ -66,7 +66,7 @@ class RecordingWriter {
   /// kMaxSetupBytes. Throws StartupError when the file cannot be made.
   RecordingWriter(const std::string& file, const std::string& setup);
   /// Writes the end mark.
-  ~RecordingWriter();
+  ~RecordingWriter() { close(); }
 
   static constexpr Duration kLongestWait = std::chrono::milliseconds(100);
 
@@ -104,14 +104,14 @@ class RecordingReader {
   /// False at the end, cut or proper. Throws StartupError with the place for a damaged entry.
   [[nodiscard]] bool next(TickRecord& record);
   /// How much of the file has been read, 0 to 1.
-  [[nodiscard]] double share_read() const;
+  [[nodiscard]] double share_read() const { return stream_.bytes_used() / static_cast<double>(bytes_); }
   /// Records that the recorder dropped between the last two that next() gave.
   [[nodiscard]] std::uint64_t lost_before() const { return lost_before_; }
   /// After next() returned false: where and how the file was cut; empty for a proper end.
   [[nodiscard]] const std::string& warning() const { return warning_; }
 
  private:
-  [[nodiscard]] bool read(unsigned char* to, std::size_t bytes);
+  [[nodiscard]] bool read(unsigned char* to, std::size_t bytes) { return stream_.read(to, bytes) == bytes; }
   void read_header();
   void check_end(std::uint32_t entries);
   void cut_short();

@@ -81,27 +81,15 @@ void require_in_reach(const RobotModel& model, const LaserModel& laser, Duration
 StopZone::StopZone(const StopZoneConfig& config)
     : config_(config), rim_radius_m_(config.footprint.circumscribed_radius_m()) {}
 
-double StopZone::rim_speed_mps(const Twist2& twist) const noexcept {
-  return std::fabs(twist.v_mps) + std::fabs(twist.w_radps) * rim_radius_m_;
-}
-
 double StopZone::margin_at(double rim_mps) const noexcept {
   const double share = std::min(rim_mps / Rules::kFull_mps, 1.0);
   return config_.creep_margin_m + (config_.margin_m - config_.creep_margin_m) * share;
-}
-
-double StopZone::stopping_distance_m(double rim_mps, double reaction_s) const noexcept {
-  return rim_mps * reaction_s + rim_mps * rim_mps / (2.0 * config_.brake_mps2);
 }
 
 double StopZone::speed_to_stop_within(double gap_m, double reaction_s) const noexcept {
   if (!(gap_m > 0.0)) return 0.0;
   const double bt = config_.brake_mps2 * reaction_s;
   return std::sqrt(bt * bt + 2.0 * config_.brake_mps2 * gap_m) - bt;
-}
-
-const Pose2& StopZone::mount_of(const LaserScan& scan) const noexcept {
-  return scan.scanner == 0 ? config_.robot_from_laser : config_.robot_from_others[scan.scanner - 1U];
 }
 
 double StopZone::gap_m(const OfEach<LaserScan>& scans, const Twist2& twist,

@@ -53,10 +53,6 @@ Supervisor::Supervisor(const SupervisorConfig& config)
   }
 }
 
-bool Supervisor::takes_wishes() const noexcept {
-  return mode_ != Mode::kOff && mode_ != Mode::kStandby && mode_ != Mode::kLatched;
-}
-
 Verdict Supervisor::judge(const Twist2& wanted, const SafetyInput& input) noexcept {
   Verdict verdict;
   verdict.gap_m = std::numeric_limits<double>::infinity();
@@ -206,10 +202,6 @@ bool Supervisor::touched(const OfEach<LaserScan>& scans) const noexcept {
   std::size_t beams = 0;
   for (const LaserScan& scan : scans) beams += stop_zone_.beams_on_body(scan);
   return beams > 0;
-}
-
-double Supervisor::reaction_s(const SafetyInput& input) const noexcept {
-  return jaywalk::reaction_s(input.scans, config_.model, input.now, config_.tick, input.latency);
 }
 
 /// Slowly where no laser ever looks: each part of the body that goes there.

@@ -47,15 +47,11 @@ void blank(const Blanking& sectors, LaserScan& scan) noexcept {
 
 double Footprint::inscribed_radius_m() const { return std::min({front_m, rear_m, half_width_m}); }
 
-double Footprint::circumscribed_radius_m() const { return norm({std::max(front_m, rear_m), half_width_m}); }
-
 double Footprint::distance_to(Vec2 p) const {
   const double beyond_x = std::max({p.x - front_m, -rear_m - p.x, 0.0});
   const double beyond_y = std::max(std::fabs(p.y) - half_width_m, 0.0);
   return norm({beyond_x, beyond_y});
 }
-
-double DriveTimes::oldest_report_s() const { return 2.0 * report_s + std::max(late_s, 0.5 * report_s); }
 
 double DriveTimes::obeyed_within_s() const {
   constexpr double kTickAndBus_s = 0.13;  // two ticks of 20 Hz and a frame that waits for others

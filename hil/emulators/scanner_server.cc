@@ -17,10 +17,6 @@ ScannerServer::ScannerServer(std::unique_ptr<ByteServer> wire, const SweepShape&
       range_m_(shape.beams),
       says_m_(shape.beams, kMeasures) {}
 
-void ScannerServer::lose_beams(std::size_t first, std::size_t count, float says_m) {
-  for (std::size_t k = first; k < std::min(first + count, says_m_.size()); ++k) says_m_[k] = says_m;
-}
-
 void ScannerServer::lose_sector(double from_rad, double to_rad, float says_m) {
   constexpr double kSame_rad = 1e-9;
   const BlankedSector sector{from_rad, to_rad};
@@ -69,8 +65,6 @@ void ScannerServer::serve_peer() {
   const wire::Bytes bytes = wire_->read();
   if (!bytes.empty() && fault_ != ScannerFault::kSilence) on_bytes(bytes);
 }
-
-void ScannerServer::answer(wire::Bytes bytes) { wire_->write(bytes); }
 
 void ScannerServer::measure(Time now) {
   const Duration period = duration_from_seconds(1.0 / shape_.rate_hz);

@@ -85,7 +85,9 @@ class ScannerServer {
 
   /// Makes these beams, or those that look into a sector (rad, counter-clockwise), measure nothing from now on and say
   /// `says_m` (World): infinity as a dead diode may. What else was lost stays so.
-  void lose_beams(std::size_t first, std::size_t count, float says_m = 0.0F);
+  void lose_beams(std::size_t first, std::size_t count, float says_m = 0.0F) {
+    for (std::size_t k = first; k < std::min(first + count, says_m_.size()); ++k) says_m_[k] = says_m;
+  }
   void lose_sector(double from_rad, double to_rad, float says_m = 0.0F);
   void find_beams() noexcept { says_m_.assign(says_m_.size(), kMeasures); }
   /// From now on each message is damaged with this probability, 0 to 1.
@@ -111,7 +113,7 @@ class ScannerServer {
   [[nodiscard]] virtual Message message_of(std::size_t first_beam, Ranges range_m, Time began, Time now) = 0;
 
   void set_streaming(bool on) noexcept { streaming_ = on; }
-  void answer(wire::Bytes bytes);
+  void answer(wire::Bytes bytes) { wire_->write(bytes); }
 
  private:
   void end_fault(Time now);

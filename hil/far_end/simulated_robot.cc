@@ -95,10 +95,6 @@ void SimulatedRobot::read_encoders() {
   if (!senses_.speeds_stand) shown_.left_radps = wheels.left_radps, shown_.right_radps = wheels.right_radps;
 }
 
-double SimulatedRobot::rim_speed() const noexcept {
-  return std::max(std::fabs(drives_[0]->speed_radps()), std::fabs(drives_[1]->speed_radps())) * wheel_radius_m_;
-}
-
 CanHealth SimulatedRobot::bus_health() const noexcept {
   CanHealth both = buses_[0]->health();
   const CanHealth right = buses_[1]->health();

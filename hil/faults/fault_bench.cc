@@ -89,10 +89,6 @@ void FaultBench::tick() {
   faulty_ |= verdict.faulty_scanners;
 }
 
-void FaultBench::wait(Duration time) {
-  for (const Time end = due_ + time; due_ < end;) tick();
-}
-
 bool FaultBench::reach_speed() {
   wait(std::chrono::milliseconds(200));
   if (robot_->desk().obey("goto 42 2.5") != "going\n") return false;

@@ -39,8 +39,12 @@ class FarGuide {
   static constexpr std::int32_t kFine = 4;
 
   [[nodiscard]] CellIndex cell_at(Vec2 p_in_map) const noexcept;
-  [[nodiscard]] Vec2 middle_of(CellIndex cell) const noexcept;
-  [[nodiscard]] KnownCell kind(std::int32_t i, std::int32_t j) const noexcept;
+  [[nodiscard]] Vec2 middle_of(CellIndex cell) const noexcept {
+    return {(cell.i + low_.i + 0.5) * cell_m_, (cell.j + low_.j + 0.5) * cell_m_};
+  }
+  [[nodiscard]] KnownCell kind(std::int32_t i, std::int32_t j) const noexcept {
+    return grid_.holds(i, j) ? kinds_[static_cast<std::size_t>(grid_.at(i, j))] : KnownCell::kUnknown;
+  }
   [[nodiscard]] std::uint32_t rate(std::int32_t i, std::int32_t j) const noexcept;
   void lay_about(Vec2 middle_in_map) noexcept;
   void note(CellIndex fine, KnownCell as) noexcept;
