@@ -34,16 +34,14 @@ std::string table_of(const SettingKey& key) { return key.section.substr(0, key.s
 std::string path_of(const SettingKey& key) { return table_of(key).empty() ? key.key : table_of(key) + "." + key.key; }
 
 bool spells_number(const std::string& word) {
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  return error == std::errc() && end == word.data() + word.size() && std::isfinite(value);
+  const auto value = number_in<double>(word);
+  return value && std::isfinite(*value);
 }
 
 /// TOML wants digits on both sides of a point.
 std::string number_in_toml(std::string word) {
   if (word.find_first_of(".eE") == std::string::npos) return word;
-  double value = 0.0;
-  std::from_chars(word.data(), word.data() + word.size(), value);
+  const double value = number_in<double>(word).value_or(0.0);
   char digits[64];
   const auto end = std::to_chars(digits, digits + sizeof digits, value).ptr;
   word.assign(digits, end);

@@ -1,7 +1,6 @@
 #include <sched.h>
 
 #include <algorithm>
-#include <charconv>
 #include <chrono>
 #include <cstdio>
 #include <thread>
@@ -162,12 +161,9 @@ int run_campaign(const CampaignOptions& options) {
 
 /// "2/4": the second of four. Throws StartupError for what is none.
 campaign::Shard shard_from(const std::string& word) {
-  campaign::Shard shard;
-  const char* const end = word.data() + word.size();
-  const auto part = std::from_chars(word.data(), end, shard.part);
-  const bool divided = part.ec == std::errc() && part.ptr != end && *part.ptr == '/';
-  const auto of = divided ? std::from_chars(part.ptr + 1, end, shard.of) : part;
-  if (divided && of.ec == std::errc() && of.ptr == end && shard.part >= 1 && shard.part <= shard.of) return shard;
+  const std::size_t slash = std::min(word.find('/'), word.size() - 1);
+  const auto part = number_in<std::size_t>(word.substr(0, slash)), of = number_in<std::size_t>(word.substr(slash + 1));
+  if (part && of && *part >= 1 && *part <= *of) return {*part, *of};
   throw StartupError("--shard: " + shown(word) + " is no share", "give I/N, 1/4 to 4/4 say");
 }
 

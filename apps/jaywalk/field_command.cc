@@ -134,15 +134,12 @@ int run_field(const FieldOptions& options) {
 void add_field(CLI::App& app, int& exit_code) {
   CLI::App* field = app.add_subcommand("field", "The potential field of a map alone");
   field->add_option("map", field_options.map, "map_server YAML, ARIA .map, cylinders .txt, or a picture")->required();
-  field
-      ->add_option_function<std::vector<double>>(
-          "--goal",
-          [](const std::vector<double>& v) {
-            field_options.goal = Vec2{sound("--goal", v[0]), sound("--goal", v[1])};
-          },
-          "Goal X,Y in the map (default: the free cell nearest its middle)")
-      ->delimiter(',')
-      ->expected(2);
+  add_place(
+      *field, "--goal", 2,
+      [](const auto& v) {
+        field_options.goal = Vec2{v[0], v[1]};
+      },
+      "Goal X,Y in the map (default: the free cell nearest its middle)");
   field->add_option("--inflation,--inflation_m", field_options.inflation_m, "Walls grow by this (m)")
       ->capture_default_str();
   field->add_option("--resolution", field_options.cell_m, "Metres a cell: of a picture, of lines or cylinders");

@@ -309,25 +309,18 @@ void add_replay(CLI::App& app, int& exit_code) {
       ->check(CLI::IsMember({"scan-odom", "carmen", "bag", "jaywalk"}));
   replay->add_option("--scan-topic", replay_options.scan_topic, "A bag's scans (default: the only LaserScan topic)");
   replay->add_option("--odom-topic", replay_options.odom_topic, "A bag's odometry (default: the only Odometry topic)");
-  replay
-      ->add_option_function<std::vector<double>>(
-          "--goal",
-          [](const std::vector<double>& v) {
-            replay_options.goal = Vec2{sound("--goal", v[0]), sound("--goal", v[1])};
-          },
-          "Goal X,Y in the recording's frame (default: its last pose)")
-      ->delimiter(',')
-      ->expected(2);
-  replay
-      ->add_option_function<std::vector<double>>(
-          "--laser-mount",
-          [](const std::vector<double>& v) {
-            const auto part = [&](std::size_t k) { return sound("--laser-mount", v[k]); };
-            replay_options.laser_mount = Pose2{part(0), part(1), wrap_angle(part(2))};
-          },
-          "X,Y,YAW of the laser on the robot (m, m, rad)")
-      ->delimiter(',')
-      ->expected(3);
+  add_place(
+      *replay, "--goal", 2,
+      [](const auto& v) {
+        replay_options.goal = Vec2{v[0], v[1]};
+      },
+      "Goal X,Y in the recording's frame (default: its last pose)");
+  add_place(
+      *replay, "--laser-mount", 3,
+      [](const auto& v) {
+        replay_options.laser_mount = Pose2{v[0], v[1], wrap_angle(v[2])};
+      },
+      "X,Y,YAW of the laser on the robot (m, m, rad)");
   replay->add_option(
       "--model", replay_options.model,
       "Whose body it is: p3dx, wheelchair, or a robot model file (default: p3dx); its laser's mount too");

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <charconv>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -286,9 +285,7 @@ int run_sim(SimOptions options) {
 
 /// The parser's own numbers stop at the greatest without a word.
 std::uint64_t seed_of(const std::string& word) {
-  std::uint64_t seed = 0;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), seed);
-  if (error == std::errc() && end == word.data() + word.size()) return seed;
+  if (const auto seed = number_in<std::uint64_t>(word)) return *seed;
   throw StartupError("--seed: " + shown(word) + " is no seed", "give a whole number from 0 to 18446744073709551615");
 }
 
