@@ -103,15 +103,8 @@ Drive drive_robot() {
       "free ahead, and a metre to each side and behind?");
   const RobotFile& file = session.file();
   const GuidedDriveSetup setup{.model = file.setup.model, .tick = file.setup.tick()};
-  try {
-    std::vector<CalibrationLog> logs =
-        drive_guided(setup, session.drive(), session.lasers(), session.clock(), ArmedSession::stopped);
-    session.disarm();
-    return {std::move(logs), file.setup.model, file.drive.wheel_radii_m};
-  } catch (const StartupError&) {
-    session.disarm();
-    throw;
-  }
+  return {drive_guided(setup, session.drive(), session.lasers(), session.clock(), ArmedSession::stopped),
+          file.setup.model, file.drive.wheel_radii_m};
 }
 
 /// What devices.json of the run says; the model's where there is none, as of a simulation.
@@ -222,21 +215,19 @@ int calibrate_robot() {
 
 // Commissioning: each wheel is turned a little.
 
-int commission_robot(const SessionOptions& options) {
+std::vector<Nudge> nudge_robot(const SessionOptions& options, RobotFile& file) {
   ArmedSession session(options, "commission",
                        "The wheels will turn, each by 12 cm, forward and back. Is half a metre free all round?");
-  const RobotFile& file = session.file();
+  file = session.file();
   withdraw_commissioned(options.robot, file);
   const NudgeSetup setup{.model = file.setup.model, .tick = file.setup.tick()};
-  std::vector<Nudge> nudges;
-  try {
-    nudges = nudge_wheels(setup, session.drive(), session.lasers(), session.clock(), ArmedSession::stopped);
-  } catch (const StartupError&) {
-    session.disarm();
-    throw;
-  }
-  session.disarm();
-  const std::vector<CheckedPart> checks = judge_nudges(nudges, setup.model);
+  return nudge_wheels(setup, session.drive(), session.lasers(), session.clock(), ArmedSession::stopped);
+}
+
+int commission_robot(const SessionOptions& options) {
+  RobotFile file;
+  const std::vector<Nudge> nudges = nudge_robot(options, file);
+  const std::vector<CheckedPart> checks = judge_nudges(nudges, file.setup.model);
   for (const CheckedPart& check : checks)
     std::printf("%-4s  %-15s %s\n", check.is_well ? "ok" : "FAIL", check.part.c_str(), check.said.c_str());
   write_commissioned(options.robot, file, checks);
