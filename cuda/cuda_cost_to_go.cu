@@ -3,7 +3,6 @@
 
 #include "cuda/cuda_cost_to_go.h"
 #include "cuda/kernels.h"
-#include "cuda/near_far.h"
 #include "planner/cost_to_go/cell_graph.h"
 #include "planner/cost_to_go/pose_guide.h"
 #include "planner/cost_to_go/pose_price.h"

@@ -1,8 +1,8 @@
 #include <cstring>
 
 #include "cuda/cuda_cost_to_go.h"
+#include "cuda/cuda_device.h"
 #include "cuda/cuda_planner.h"
-#include "cuda/on_device.h"
 #include "planner/cost_to_go/planning_rules.h"
 #include "planner/cost_to_go/time_to_go_planner.h"
 

@@ -7,7 +7,7 @@
 
 #include "firmware/control_setup.h"
 #include "firmware/recording/tick_record.h"
-#include "firmware/safety/rest_watch.h"
+#include "firmware/safety/felt_motion.h"
 #include "firmware/safety/unseen_walls.h"
 #include "hal/types/fixed_vector.h"
 #include "hal/types/robot_model.h"

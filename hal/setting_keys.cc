@@ -6,7 +6,6 @@
 #include <cstdio>
 #include <sstream>
 #include <stdexcept>
-#include <vector>
 
 #include "hal/shown_text.h"
 #include "hal/toml_file.h"
@@ -29,105 +28,20 @@ const SettingKey* look_up(const std::vector<SettingKey>& keys, const std::string
   return end == std::string::npos ? nullptr : look_up(keys, section.substr(0, end), key);
 }
 
-}  // namespace
-
-SettingKey key_row(const char* key, KeyKind kind, Otherwise otherwise, const char* meaning, const char* unit) {
-  return {"", key, kind, {}, unit, otherwise, meaning};
-}
-
-SettingKey number_row(const char* key, Range range, const char* unit, Otherwise otherwise, const char* meaning) {
-  return {"", key, KeyKind::kNumber, range, unit, otherwise, meaning};
-}
-
-SettingKey whole_row(const char* key, Range range, const char* unit, Otherwise otherwise, const char* meaning) {
-  return {"", key, KeyKind::kInteger, range, unit, otherwise, meaning};
-}
-
-SettingKey choice_row(const char* key, Otherwise otherwise, const char* meaning,
-                      const std::vector<std::string>& choices) {
-  return {"", key, KeyKind::kChoice, {}, "", otherwise, meaning, choices};
-}
-
-SettingKey in_section(const std::string& section, SettingKey row) {
-  row.section = section;
-  return row;
-}
-
-std::vector<SettingKey> section_keys(const std::string& section, std::vector<SettingKey> rows) {
-  for (SettingKey& row : rows) row.section = row.section.empty() ? section : row.section;
-  return rows;
-}
-
-FileKeys file_keys(const char* title, const std::vector<std::vector<SettingKey>>& sections) {
-  FileKeys file{title, {}};
-  for (const auto& keys : sections) file.keys.insert(file.keys.end(), keys.begin(), keys.end());
-  return file;
-}
-
-const SettingKey& FileKeys::find(const std::string& section, const std::string& key) const {
-  const SettingKey* row = look_up(keys, section, key);
-  if (row == nullptr) throw std::logic_error(std::string(title) + ": no key " + section + "." + key + " in its table");
-  return *row;
-}
-
-bool FileKeys::has(const std::string& section, const std::string& key) const {
-  return look_up(keys, section, key) != nullptr;
-}
-
-std::string FileKeys::choice_with(const std::string& section, const std::string& key) const {
-  for (const SettingKey& row : keys)
-    if (row.key == key && row.section.starts_with(section + ":")) return row.section.substr(section.size() + 1);
-  return "";
-}
-
-std::string joined(const std::vector<std::string>& words) {
-  std::string all;
-  for (const std::string& word : words) all += (all.empty() ? "" : ", ") + word;
-  return all;
-}
-
-std::string allowed(const SettingKey& key) {
-  switch (key.kind) {
-    case KeyKind::kNumber: return shortest(key.range.low) + " to " + shortest(key.range.high);
-    case KeyKind::kInteger: return shortest(key.range.low) + " to " + shortest(key.range.high) + ", whole";
-    case KeyKind::kBoolean: return "true or false";
-    case KeyKind::kChoice: return joined(key.choices);
-    case KeyKind::kText: return "text";
-    case KeyKind::kFile: return "path, relative to this file";
-    case KeyKind::kNumbers: return "list of numbers";
-    case KeyKind::kPoints: return "list of [x, y]";
-    case KeyKind::kTexts: return "text, or a list of texts";
-    case KeyKind::kTable: return "table";
-    case KeyKind::kTables: return "tables";
-  }
-  return "";
-}
-
-std::string default_of(const SettingKey& key) {
-  if (const auto* number = std::get_if<double>(&key.otherwise)) return shortest(*number);
-  if (const auto* boolean = std::get_if<bool>(&key.otherwise)) return *boolean ? "true" : "false";
-  if (const auto* words = std::get_if<const char*>(&key.otherwise)) return *words;
-  return "needed";
-}
-
-namespace {
-
 /// "movers" of "movers:wander".
 std::string table_of(const SettingKey& key) { return key.section.substr(0, key.section.find(':')); }
 
 std::string path_of(const SettingKey& key) { return table_of(key).empty() ? key.key : table_of(key) + "." + key.key; }
 
 bool spells_number(const std::string& word) {
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  return error == std::errc() && end == word.data() + word.size() && std::isfinite(value);
+  const auto value = number_in<double>(word);
+  return value && std::isfinite(*value);
 }
 
 /// TOML wants digits on both sides of a point.
 std::string number_in_toml(std::string word) {
   if (word.find_first_of(".eE") == std::string::npos) return word;
-  double value = 0.0;
-  std::from_chars(word.data(), word.data() + word.size(), value);
+  const double value = number_in<double>(word).value_or(0.0);
   char digits[64];
   const auto end = std::to_chars(digits, digits + sizeof digits, value).ptr;
   word.assign(digits, end);
@@ -231,6 +145,85 @@ bool is_any_empty(const std::vector<std::string>& values) {
 }
 
 }  // namespace
+
+SettingKey key_row(const char* key, KeyKind kind, Otherwise otherwise, const char* meaning, const char* unit) {
+  return {"", key, kind, {}, unit, otherwise, meaning};
+}
+
+SettingKey number_row(const char* key, Range range, const char* unit, Otherwise otherwise, const char* meaning) {
+  return {"", key, KeyKind::kNumber, range, unit, otherwise, meaning};
+}
+
+SettingKey whole_row(const char* key, Range range, const char* unit, Otherwise otherwise, const char* meaning) {
+  return {"", key, KeyKind::kInteger, range, unit, otherwise, meaning};
+}
+
+SettingKey choice_row(const char* key, Otherwise otherwise, const char* meaning,
+                      const std::vector<std::string>& choices) {
+  return {"", key, KeyKind::kChoice, {}, "", otherwise, meaning, choices};
+}
+
+SettingKey in_section(const std::string& section, SettingKey row) {
+  row.section = section;
+  return row;
+}
+
+std::vector<SettingKey> section_keys(const std::string& section, std::vector<SettingKey> rows) {
+  for (SettingKey& row : rows) row.section = row.section.empty() ? section : row.section;
+  return rows;
+}
+
+FileKeys file_keys(const char* title, const std::vector<std::vector<SettingKey>>& sections) {
+  FileKeys file{title, {}};
+  for (const auto& keys : sections) file.keys.insert(file.keys.end(), keys.begin(), keys.end());
+  return file;
+}
+
+const SettingKey& FileKeys::find(const std::string& section, const std::string& key) const {
+  const SettingKey* row = look_up(keys, section, key);
+  if (row == nullptr) throw std::logic_error(std::string(title) + ": no key " + section + "." + key + " in its table");
+  return *row;
+}
+
+bool FileKeys::has(const std::string& section, const std::string& key) const {
+  return look_up(keys, section, key) != nullptr;
+}
+
+std::string FileKeys::choice_with(const std::string& section, const std::string& key) const {
+  for (const SettingKey& row : keys)
+    if (row.key == key && row.section.starts_with(section + ":")) return row.section.substr(section.size() + 1);
+  return "";
+}
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string all;
+  for (const std::string& word : words) all += (all.empty() ? "" : ", ") + word;
+  return all;
+}
+
+std::string allowed(const SettingKey& key) {
+  switch (key.kind) {
+    case KeyKind::kNumber: return shortest(key.range.low) + " to " + shortest(key.range.high);
+    case KeyKind::kInteger: return shortest(key.range.low) + " to " + shortest(key.range.high) + ", whole";
+    case KeyKind::kBoolean: return "true or false";
+    case KeyKind::kChoice: return joined(key.choices);
+    case KeyKind::kText: return "text";
+    case KeyKind::kFile: return "path, relative to this file";
+    case KeyKind::kNumbers: return "list of numbers";
+    case KeyKind::kPoints: return "list of [x, y]";
+    case KeyKind::kTexts: return "text, or a list of texts";
+    case KeyKind::kTable: return "table";
+    case KeyKind::kTables: return "tables";
+  }
+  return "";
+}
+
+std::string default_of(const SettingKey& key) {
+  if (const auto* number = std::get_if<double>(&key.otherwise)) return shortest(*number);
+  if (const auto* boolean = std::get_if<bool>(&key.otherwise)) return *boolean ? "true" : "false";
+  if (const auto* words = std::get_if<const char*>(&key.otherwise)) return *words;
+  return "needed";
+}
 
 void apply_setting(toml::value& root, const FileKeys& keys, const std::filesystem::path& file,
                    const std::string& setting) {

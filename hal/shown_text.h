@@ -1,7 +1,9 @@
 #pragma once
 #include <algorithm>
+#include <charconv>
 #include <cstdarg>
 #include <cstdio>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -38,14 +40,22 @@ namespace jaywalk {
   return text;
 }
 
-/// As std::printf writes it, without_minus_zero; cut after 255 characters.
+/// As std::printf writes it, without_minus_zero; cut after 511 characters.
 [[nodiscard, gnu::format(printf, 1, 2)]] inline std::string formatted(const char* format, ...) {
-  char text[256];
+  char text[512];
   va_list arguments;
   va_start(arguments, format);
   std::vsnprintf(text, sizeof text, format, arguments);
   va_end(arguments);
   return without_minus_zero(text);
+}
+
+/// The whole of `word` as a number; nothing where it is none, or out of the range of `T`.
+template <class T>
+[[nodiscard]] std::optional<T> number_in(std::string_view word) noexcept {
+  T value{};
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  return error == std::errc() && end == word.data() + word.size() ? std::optional(value) : std::nullopt;
 }
 
 /// How many letters must be inserted, deleted or replaced to make one word of the other (Levenshtein's distance).

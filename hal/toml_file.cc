@@ -6,7 +6,6 @@
 #include <regex>
 #include <sstream>
 
-#include "hal/setting_keys.h"
 #include "hal/shown_text.h"
 #include "hal/text_file.h"
 #include "hal/types/errors.h"
@@ -122,8 +121,6 @@ TomlTable::TomlTable(const std::filesystem::path& file, const FileKeys& keys, co
                      std::string name)
     : file_(&file), keys_(&keys), table_(&table), name_(std::move(name)), section_(name_) {}
 
-std::string TomlTable::title(const std::string& key) const { return name_.empty() ? key : name_ + "." + key; }
-
 std::string TomlTable::place_of(const std::string& key) const {
   const toml::value* node = look_up(*table_, key);
   const auto where = node != nullptr ? node->location() : table_->location();
@@ -159,12 +156,6 @@ void TomlTable::refuse_misspelt(const std::string& key) const {
     if (!meant.empty()) refuse(printable(other), "is not a known key", meant);
   }
 }
-
-bool TomlTable::needs(const std::string& key) const {
-  return std::holds_alternative<std::monostate>(row(key).otherwise);
-}
-
-const toml::value* TomlTable::find_unless_needed(const std::string& key) { return needs(key) ? &need(key) : find(key); }
 
 bool TomlTable::has(const std::string& key) const {
   static_cast<void>(row(key));

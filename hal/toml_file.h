@@ -32,7 +32,9 @@ class TomlTable {
 
   [[nodiscard]] bool has(const std::string& key) const;
   /// Whether the key has no default.
-  [[nodiscard]] bool needs(const std::string& key) const;
+  [[nodiscard]] bool needs(const std::string& key) const {
+    return std::holds_alternative<std::monostate>(row(key).otherwise);
+  }
   /// The number under `key`, else its default; without one the key must be there. Throws for a wrong type, NaN, or
   /// outside the key's range.
   [[nodiscard]] double number(const std::string& key);
@@ -95,8 +97,8 @@ class TomlTable {
   /// Throws where a key of the table that the file does not know looks like `key`.
   void refuse_misspelt(const std::string& key) const;
   /// As `find`, but one that is needed must be there.
-  const toml::value* find_unless_needed(const std::string& key);
-  [[nodiscard]] std::string title(const std::string& key) const;
+  const toml::value* find_unless_needed(const std::string& key) { return needs(key) ? &need(key) : find(key); }
+  [[nodiscard]] std::string title(const std::string& key) const { return name_.empty() ? key : name_ + "." + key; }
   [[nodiscard]] std::size_t line(const std::string& key) const;
   [[nodiscard]] std::vector<ListedKey> all_listed(const std::string& before) const;
   [[nodiscard]] double number_from(const std::string& key, const toml::value& node, Range range) const;

@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <ctime>
 #include <filesystem>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>

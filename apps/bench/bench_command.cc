@@ -11,6 +11,7 @@
 #include "apps/jaywalk/commands.h"
 #include "apps/jaywalk/progress.h"
 #include "apps/rivals/paper_mode.h"
+#include "hal/text_file.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk {
@@ -206,12 +207,6 @@ void refuse_unwritable(const std::filesystem::path& file) {
     throw StartupError(file.string() + ": cannot be written", "choose another --json");
 }
 
-void write_rows(const std::filesystem::path& file, const nlohmann::ordered_json& rows) {
-  std::ofstream out(file);
-  out << rows.dump(1) << '\n';
-  if (!out.flush()) throw StartupError(file.string() + ": the disk did not take all of it", "choose another --json");
-}
-
 int run_bench(const BenchOptions& options) {
   const std::vector<BenchMap> maps = all_maps(options);
   if (options.json) refuse_unwritable(*options.json);
@@ -220,7 +215,7 @@ int run_bench(const BenchOptions& options) {
   Bench bench;
   for (std::size_t k = 0; k < maps.size(); ++k)
     bench.measure(maps[k], static_cast<double>(k) / static_cast<double>(maps.size()));
-  if (options.json) write_rows(*options.json, bench.rows());
+  if (options.json) write_text(*options.json, bench.rows().dump(1) + "\n", "choose another --json");
   return 0;
 }
 

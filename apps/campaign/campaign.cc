@@ -9,7 +9,6 @@
 #include <cerrno>
 #include <csignal>
 #include <cstring>
-#include <map>
 #include <utility>
 
 #include "hal/maps/wall_map.h"
@@ -208,6 +207,19 @@ void refuse_equal_folders(const Campaign& campaign, const std::vector<PlannedRun
   }
 }
 
+constexpr int kNotStarted = 127;
+
+/// Between fork and exec: nothing here allocates.
+[[noreturn]] void become(const char* program, const char* folder, const char* said, char* const* words, pid_t parent) {
+  ::setpgid(0, 0);  // Ctrl-C is for the campaign, which then ends its runs
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (::getppid() != parent || ::chdir(folder) != 0) ::_exit(kNotStarted);
+  const int file = ::open(said, O_WRONLY | O_CREAT | O_TRUNC, 0644);
+  if (file < 0 || ::dup2(file, STDOUT_FILENO) < 0 || ::dup2(file, STDERR_FILENO) < 0) ::_exit(kNotStarted);
+  ::execv(program, words);
+  ::_exit(kNotStarted);
+}
+
 }  // namespace
 
 const FileKeys& campaign_keys() {
@@ -281,27 +293,8 @@ std::string command_of(const PlannedRun& run) {
   return command + " --out " + "out/" + run.folder;
 }
 
-namespace {
-
-constexpr int kNotStarted = 127;
-
-/// Between fork and exec: nothing here allocates.
-[[noreturn]] void become(const char* program, const char* folder, const char* said, char* const* words, pid_t parent) {
-  ::setpgid(0, 0);  // Ctrl-C is for the campaign, which then ends its runs
-  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (::getppid() != parent || ::chdir(folder) != 0) ::_exit(kNotStarted);
-  const int file = ::open(said, O_WRONLY | O_CREAT | O_TRUNC, 0644);
-  if (file < 0 || ::dup2(file, STDOUT_FILENO) < 0 || ::dup2(file, STDERR_FILENO) < 0) ::_exit(kNotStarted);
-  ::execv(program, words);
-  ::_exit(kNotStarted);
-}
-
-}  // namespace
-
 RunPool::RunPool(std::filesystem::path program, std::filesystem::path folder)
     : program_(std::move(program)), folder_(std::move(folder)) {}
-
-RunPool::~RunPool() { kill_all(); }
 
 void RunPool::start(std::size_t index, const PlannedRun& run, const std::filesystem::path& out) {
   const std::string said = (out / "said.txt").string();

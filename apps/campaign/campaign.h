@@ -92,7 +92,7 @@ class RunPool {
 
   /// `program`: jaywalk; `folder`: where its arguments' paths begin.
   RunPool(std::filesystem::path program, std::filesystem::path folder);
-  ~RunPool();
+  ~RunPool() { kill_all(); }
   RunPool(const RunPool&) = delete;
   RunPool& operator=(const RunPool&) = delete;
 

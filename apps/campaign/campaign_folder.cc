@@ -6,14 +6,11 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <cstdint>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <vector>
 
-#include "apps/campaign/ride.h"
 #include "apps/campaign/statistics.h"
 #include "hal/shown_text.h"
 #include "hal/text_file.h"
@@ -89,47 +86,6 @@ std::string hexadecimal(std::uint64_t hash) {
   return text;
 }
 
-}  // namespace
-
-std::string plan_text(const Campaign& campaign, const Plan& plan, const std::filesystem::path& program) {
-  Json j;
-  j["title"] = campaign.title;
-  j["program"] = std::string("jaywalk ") + JAYWALK_VERSION + ", file " + digest_of_file(program);
-  j["inputs"] = digest_of(plan.inputs);
-  j["experiments"] = Json::array();
-  for (const Experiment& experiment : campaign.experiments) j["experiments"].push_back(json_of(experiment, plan.runs));
-  return j.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
-}
-
-ReportedCampaign read_plan(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  try {
-    const Json j = Json::parse(in);
-    ReportedCampaign campaign;
-    campaign.title = j.at("title").get<std::string>();
-    campaign.program = j.at("program").get<std::string>();
-    for (const Json& experiment : j.at("experiments")) campaign.experiments.push_back(read_experiment(experiment));
-    return campaign;
-  } catch (const Json::exception&) {
-    throw StartupError(file.string() + ": is no campaign.json of this program", "give the folder of a campaign");
-  }
-}
-
-std::string digest_of_text(std::string_view text) { return hexadecimal(mixed(kOffset, text)); }
-
-std::string digest_of_file(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::array<char, 1U << 16U> block{};
-  std::uint64_t hash = kOffset;
-  while (in.read(block.data(), block.size()) || in.gcount() > 0)
-    hash = mixed(hash, {block.data(), static_cast<std::size_t>(in.gcount())});
-  return hexadecimal(hash);
-}
-
-namespace {
-
-using Json = nlohmann::ordered_json;
-
 /// The program's last error line, without the path of the run's folder: that path differs between shards.
 std::string last_words(const std::filesystem::path& folder) {
   const std::string said = text_in(folder / "said.txt"), own = folder.string();
@@ -189,6 +145,41 @@ void prune(const std::filesystem::path& folder) {
 }
 
 }  // namespace
+
+std::string plan_text(const Campaign& campaign, const Plan& plan, const std::filesystem::path& program) {
+  Json j;
+  j["title"] = campaign.title;
+  j["program"] = std::string("jaywalk ") + JAYWALK_VERSION + ", file " + digest_of_file(program);
+  j["inputs"] = digest_of(plan.inputs);
+  j["experiments"] = Json::array();
+  for (const Experiment& experiment : campaign.experiments) j["experiments"].push_back(json_of(experiment, plan.runs));
+  return j.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+ReportedCampaign read_plan(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  try {
+    const Json j = Json::parse(in);
+    ReportedCampaign campaign;
+    campaign.title = j.at("title").get<std::string>();
+    campaign.program = j.at("program").get<std::string>();
+    for (const Json& experiment : j.at("experiments")) campaign.experiments.push_back(read_experiment(experiment));
+    return campaign;
+  } catch (const Json::exception&) {
+    throw StartupError(file.string() + ": is no campaign.json of this program", "give the folder of a campaign");
+  }
+}
+
+std::string digest_of_text(std::string_view text) { return hexadecimal(mixed(kOffset, text)); }
+
+std::string digest_of_file(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::array<char, 1U << 16U> block{};
+  std::uint64_t hash = kOffset;
+  while (in.read(block.data(), block.size()) || in.gcount() > 0)
+    hash = mixed(hash, {block.data(), static_cast<std::size_t>(in.gcount())});
+  return hexadecimal(hash);
+}
 
 double RunResult::figure(const std::string& name) const {
   const auto found = figures.find(name);
@@ -270,8 +261,6 @@ CampaignFolder::CampaignFolder(const std::filesystem::path& path, const std::str
   throw StartupError(path.string() + ": holds another campaign, or runs of other scenarios or of another build",
                      "choose another --out, or remove it");
 }
-
-CampaignFolder::~CampaignFolder() { ::close(held_); }
 
 std::filesystem::path CampaignFolder::work(const PlannedRun& run) const {
   return place_of(path_, run).string() + ".part-" + share_;

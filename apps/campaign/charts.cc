@@ -1,10 +1,9 @@
-#include "apps/campaign/charts.h"
-
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <set>
 
+#include "apps/campaign/report.h"
 #include "apps/campaign/statistics.h"
 #include "apps/report/markup.h"
 #include "hal/types/geometry.h"

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "apps/campaign/charts.h"
 #include "apps/campaign/statistics.h"
 #include "apps/report/markup.h"
 #include "hal/text_file.h"
@@ -182,32 +181,6 @@ std::string failure_of(const ReportFailure& failure, std::size_t number) {
   return out;
 }
 
-}  // namespace
-
-std::string html_of(const ReportPage& page) {
-  std::string out = kHead + as_markup(page.title) + kStyle + "<h1>" + as_markup(page.title) + "</h1>\n<p>" +
-                    as_markup(page.text) + "</p>\n" + cards_of(page.cards);
-  for (const ReportSection& section : page.sections) out += section_of(section);
-  out += runs_of(page.runs) + "<h2>Failures</h2>\n";
-  out += page.failures.empty() ? "<p>None.</p>\n<div>\n" : "<div class=\"failures\">\n";
-  for (const ReportFailure& failure : page.failures) out += failure_of(failure);
-  return out + "</div>\n" + kSorting + "</body>\n</html>\n";
-}
-
-std::string markdown_of(const ReportPage& page) {
-  std::string out = "# " + page.title + "\n\n" + page.text + "\n\n";
-  for (const ReportCard& card : page.cards) out += "- **" + card.figure + "** " + card.what + "\n";
-  out += "\n";
-  for (const ReportSection& section : page.sections) out += section_in_markdown(section);
-  out += "## Failures\n\n";
-  if (page.failures.empty()) return out + "None.\n";
-  std::size_t number = 0;
-  for (const ReportFailure& failure : page.failures) out += failure_of(failure, ++number);
-  return out;
-}
-
-namespace {
-
 std::vector<TurnBars> turn_bars(const ReportedTables& tables) {
   std::vector<TurnBars> all;
   for (const ReportedRow& row : tables.rows) {
@@ -265,6 +238,28 @@ ReportedRow& row_of(ReportedTables& tables, const PlannedRun& run) {
 }
 
 }  // namespace
+
+std::string html_of(const ReportPage& page) {
+  std::string out = kHead + as_markup(page.title) + kStyle + "<h1>" + as_markup(page.title) + "</h1>\n<p>" +
+                    as_markup(page.text) + "</p>\n" + cards_of(page.cards);
+  for (const ReportSection& section : page.sections) out += section_of(section);
+  out += runs_of(page.runs) + "<h2>Failures</h2>\n";
+  out += page.failures.empty() ? "<p>None.</p>\n<div>\n" : "<div class=\"failures\">\n";
+  for (const ReportFailure& failure : page.failures) out += failure_of(failure);
+  return out + "</div>\n" + kSorting + "</body>\n</html>\n";
+}
+
+std::string markdown_of(const ReportPage& page) {
+  std::string out = "# " + page.title + "\n\n" + page.text + "\n\n";
+  for (const ReportCard& card : page.cards) out += "- **" + card.figure + "** " + card.what + "\n";
+  out += "\n";
+  for (const ReportSection& section : page.sections) out += section_in_markdown(section);
+  out += "## Failures\n\n";
+  if (page.failures.empty()) return out + "None.\n";
+  std::size_t number = 0;
+  for (const ReportFailure& failure : page.failures) out += failure_of(failure, ++number);
+  return out;
+}
 
 bool is_campaign(const std::filesystem::path& folder) { return std::filesystem::exists(folder / "campaign.json"); }
 

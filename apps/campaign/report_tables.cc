@@ -4,7 +4,6 @@
 #include <functional>
 #include <optional>
 
-#include "apps/campaign/charts.h"
 #include "apps/campaign/report.h"
 #include "apps/campaign/statistics.h"
 #include "hal/shown_text.h"

@@ -1,5 +1,3 @@
-#include "apps/campaign/ride.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -7,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "apps/campaign/campaign_folder.h"
 #include "apps/report/csv_file.h"
 #include "apps/report/distribution.h"
 #include "hal/shown_text.h"

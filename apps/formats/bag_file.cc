@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -40,70 +39,6 @@ bool unpack_bz2(std::string_view packed, std::string& out) {
       BZ2_bzBuffToBuffDecompress(out.data(), &bytes, source.data(), static_cast<unsigned>(source.size()), 0, 0);
   return code == BZ_OK && bytes == out.size();
 }
-
-}  // namespace
-
-ByteFile::ByteFile(const std::filesystem::path& file, std::string remedy)
-    : file_(file), remedy_(std::move(remedy)), in_(file, std::ios::binary) {
-  require_readable(file, name() + ": ", "give a recording");
-  size_ = std::filesystem::file_size(file);
-}
-
-std::string ByteFile::read(std::uint64_t at, std::uint64_t bytes) {
-  if (bytes > kMostRecordBytes) refuse(at, "a record of " + std::to_string(bytes) + " bytes");
-  if (at > size_ || bytes > size_ - at) refuse(at, "the file ends before what begins here");
-  std::string out(bytes, '\0');
-  in_.seekg(static_cast<std::streamoff>(at));
-  in_.read(out.data(), static_cast<std::streamsize>(bytes));
-  if (!in_) refuse(at, "cannot be read");
-  return out;
-}
-
-void ByteFile::refuse(std::uint64_t at, const std::string& cause) const {
-  throw StartupError(name() + ": byte " + std::to_string(at) + ": " + cause, remedy_);
-}
-
-bool can_unpack(std::string_view method) {
-  constexpr std::array<std::string_view, 5> kMethods{"", "none", "zstd", "lz4", "bz2"};
-  return std::find(kMethods.begin(), kMethods.end(), method) != kMethods.end();
-}
-
-std::optional<std::string> unpack(std::string_view method, std::string_view packed, std::size_t bytes) {
-  if (method.empty() || method == "none")
-    return packed.size() == bytes ? std::optional<std::string>(packed) : std::nullopt;
-  std::string out(bytes, '\0');
-  const bool whole = method == "zstd"  ? ZSTD_decompress(out.data(), bytes, packed.data(), packed.size()) == bytes
-                     : method == "lz4" ? unpack_lz4(packed, out)
-                     : method == "bz2" ? unpack_bz2(packed, out)
-                                       : false;
-  return whole ? std::optional(std::move(out)) : std::nullopt;
-}
-
-std::optional<std::string> unpack_zstd(std::string_view packed, std::size_t most) {
-  const std::unique_ptr<ZSTD_DStream, decltype(&ZSTD_freeDStream)> stream(ZSTD_createDStream(), &ZSTD_freeDStream);
-  std::string out;
-  std::string block(ZSTD_DStreamOutSize(), '\0');
-  ZSTD_inBuffer in{packed.data(), packed.size(), 0};
-  std::size_t left = 1;  // 0 when a frame is whole
-  while (in.pos < in.size || left != 0) {
-    ZSTD_outBuffer to{block.data(), block.size(), 0};
-    const std::size_t before = in.pos;
-    left = ZSTD_decompressStream(stream.get(), &to, &in);
-    if (ZSTD_isError(left) != 0U || (to.pos == 0 && in.pos == before)) return std::nullopt;
-    if (out.size() + to.pos > most) return std::nullopt;
-    out.append(block.data(), to.pos);
-  }
-  return out;
-}
-
-std::string packed_zstd(std::string_view bytes) {
-  std::string out(ZSTD_compressBound(bytes.size()), '\0');
-  out.resize(
-      ZSTD_compress(out.data(), out.size(), bytes.data(), bytes.size(), 1));  // with that much room it cannot fail
-  return out;
-}
-
-namespace {
 
 constexpr std::string_view kZstdMagic = "\x28\xB5\x2F\xFD";
 
@@ -166,9 +101,7 @@ class UnpackedFile {
     ByteFile file(packed, "take an undamaged copy of it");
     const auto bytes = unpack_zstd(file.read(0, file.size()), 4 * kMostRecordBytes);
     if (!bytes) file.refuse(0, "it does not unpack");
-    std::ofstream out(path_, std::ios::binary);
-    out.write(bytes->data(), static_cast<std::streamsize>(bytes->size()));
-    if (!out.flush()) throw StartupError(path_.string() + ": cannot be written", "free some space, or set TMPDIR");
+    write_text(path_, *bytes, "free some space, or set TMPDIR");
   }
   ~UnpackedFile() {
     std::error_code ignored;
@@ -236,6 +169,66 @@ std::vector<std::filesystem::path> in_order(const std::vector<std::filesystem::p
 }
 
 }  // namespace
+
+ByteFile::ByteFile(const std::filesystem::path& file, std::string remedy)
+    : file_(file), remedy_(std::move(remedy)), in_(file, std::ios::binary) {
+  require_readable(file, name() + ": ", "give a recording");
+  size_ = std::filesystem::file_size(file);
+}
+
+std::string ByteFile::read(std::uint64_t at, std::uint64_t bytes) {
+  if (bytes > kMostRecordBytes) refuse(at, "a record of " + std::to_string(bytes) + " bytes");
+  if (at > size_ || bytes > size_ - at) refuse(at, "the file ends before what begins here");
+  std::string out(bytes, '\0');
+  in_.seekg(static_cast<std::streamoff>(at));
+  in_.read(out.data(), static_cast<std::streamsize>(bytes));
+  if (!in_) refuse(at, "cannot be read");
+  return out;
+}
+
+void ByteFile::refuse(std::uint64_t at, const std::string& cause) const {
+  throw StartupError(name() + ": byte " + std::to_string(at) + ": " + cause, remedy_);
+}
+
+bool can_unpack(std::string_view method) {
+  constexpr std::array<std::string_view, 5> kMethods{"", "none", "zstd", "lz4", "bz2"};
+  return std::find(kMethods.begin(), kMethods.end(), method) != kMethods.end();
+}
+
+std::optional<std::string> unpack(std::string_view method, std::string_view packed, std::size_t bytes) {
+  if (method.empty() || method == "none")
+    return packed.size() == bytes ? std::optional<std::string>(packed) : std::nullopt;
+  std::string out(bytes, '\0');
+  const bool whole = method == "zstd"  ? ZSTD_decompress(out.data(), bytes, packed.data(), packed.size()) == bytes
+                     : method == "lz4" ? unpack_lz4(packed, out)
+                     : method == "bz2" ? unpack_bz2(packed, out)
+                                       : false;
+  return whole ? std::optional(std::move(out)) : std::nullopt;
+}
+
+std::optional<std::string> unpack_zstd(std::string_view packed, std::size_t most) {
+  const std::unique_ptr<ZSTD_DStream, decltype(&ZSTD_freeDStream)> stream(ZSTD_createDStream(), &ZSTD_freeDStream);
+  std::string out;
+  std::string block(ZSTD_DStreamOutSize(), '\0');
+  ZSTD_inBuffer in{packed.data(), packed.size(), 0};
+  std::size_t left = 1;  // 0 when a frame is whole
+  while (in.pos < in.size || left != 0) {
+    ZSTD_outBuffer to{block.data(), block.size(), 0};
+    const std::size_t before = in.pos;
+    left = ZSTD_decompressStream(stream.get(), &to, &in);
+    if (ZSTD_isError(left) != 0U || (to.pos == 0 && in.pos == before)) return std::nullopt;
+    if (out.size() + to.pos > most) return std::nullopt;
+    out.append(block.data(), to.pos);
+  }
+  return out;
+}
+
+std::string packed_zstd(std::string_view bytes) {
+  std::string out(ZSTD_compressBound(bytes.size()), '\0');
+  out.resize(
+      ZSTD_compress(out.data(), out.size(), bytes.data(), bytes.size(), 1));  // with that much room it cannot fail
+  return out;
+}
 
 bool is_bag(const std::filesystem::path& path) {
   return std::filesystem::is_directory(path) || format_of(path) != Format::kNone;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <map>
 #include <utility>
 #include <vector>
@@ -254,9 +253,8 @@ Duration sweep_of(sim::RecordedLog& log, const std::string& name, const std::vec
   if (!(sweep_s > 0.0)) return log.spinning_sweep();
   if (sweep_s <= kSamePeriod * period_s && sweep_s < kLongestSweepS) return duration_from_seconds(sweep_s);
   const Duration taken = log.spinning_sweep();
-  char told[128];
-  std::snprintf(told, sizeof told,
-                ": time_increment says sweeps of %.3f s, scans come every %.3f s: taken to sweep in %.3f s", sweep_s,
+  const std::string told =
+      formatted(": time_increment says sweeps of %.3f s, scans come every %.3f s: taken to sweep in %.3f s", sweep_s,
                 period_s, to_seconds(taken));
   log.add_remark(name + told);
   return taken;
@@ -294,12 +292,11 @@ sim::RecordedLog load_bag(const std::filesystem::path& path, const BagOptions& o
   }
   log.sweep = sweep_of(log, scan_name, scans);
   sim::remark_gaps(log, scan_name);
-  char at[96];
   const Pose2& p = log.robot_from_laser;
-  std::snprintf(at, sizeof at, "laser at %.3f,%.3f,%.4f (", p.x, p.y, p.heading);
+  const std::string at = formatted("laser at %.3f,%.3f,%.4f (", p.x, p.y, p.heading);
   log.add_remark(file + ": scans of " + shown(scan_topic) +
-                 (log.odometry.empty() ? ", no odometry" : ", odometry of " + shown(odom_topic)) + ", " +
-                 without_minus_zero(at) + source + ")");
+                 (log.odometry.empty() ? ", no odometry" : ", odometry of " + shown(odom_topic)) + ", " + at + source +
+                 ")");
   return log;
 }
 

@@ -1,15 +1,14 @@
-#include "apps/formats/ros_messages.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <map>
 #include <sstream>
 #include <vector>
 
+#include "apps/formats/ros_topics.h"
 #include "apps/formats/wire_reader.h"
+#include "hal/shown_text.h"
 
 namespace jaywalk::exchange {
 namespace {
@@ -269,8 +268,7 @@ std::string clock(Time now) {
 std::string diagnostics(const TickRecord& tick, Time time) {
   constexpr unsigned kOk = 0, kWarn = 1, kError = 2;
   const std::string reasons = to_string(tick.verdict.reasons, tick.verdict.faulty_scanners);
-  char gap[32];
-  std::snprintf(gap, sizeof gap, "%.3f", tick.verdict.gap_m);
+  const std::string gap = formatted("%.3f", tick.verdict.gap_m);
   CdrWriter out;
   header(out, time, "");
   out.u32(1).u8(has(tick.verdict.reasons, Reason::kLatched) ? kError : reasons.empty() ? kOk : kWarn);

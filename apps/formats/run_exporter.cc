@@ -1,11 +1,10 @@
 #include "apps/formats/run_exporter.h"
 
 #include <algorithm>
-#include <fstream>
 #include <string>
 
-#include "apps/formats/ros_messages.h"
-#include "hal/types/errors.h"
+#include "apps/formats/ros_topics.h"
+#include "hal/text_file.h"
 
 namespace jaywalk {
 namespace {
@@ -37,15 +36,14 @@ void write_metadata(const std::filesystem::path& file, const exchange::McapWrite
   }
   const std::string lasted = std::to_string(mcap.last_ns() - mcap.first_ns()), began = std::to_string(mcap.first_ns()),
                     count = std::to_string(mcap.messages()), name = file.filename().string();
-  std::ofstream out(file.parent_path() / "metadata.yaml");
-  out << "rosbag2_bagfile_information:\n  version: 5\n  storage_identifier: mcap\n  duration:\n    nanoseconds: "
-      << lasted << "\n  starting_time:\n    nanoseconds_since_epoch: " << began << "\n  message_count: " << count
-      << "\n  topics_with_message_count:\n"
-      << topics << "  compression_format: \"\"\n  compression_mode: \"\"\n  relative_file_paths:\n    - " << name
-      << "\n  files:\n    - path: " << name << "\n      starting_time:\n        nanoseconds_since_epoch: " << began
-      << "\n      duration:\n        nanoseconds: " << lasted << "\n      message_count: " << count << "\n";
-  if (!out.flush())
-    throw StartupError((file.parent_path() / "metadata.yaml").string() + ": cannot be written", "choose another --out");
+  write_text(file.parent_path() / "metadata.yaml",
+             "rosbag2_bagfile_information:\n  version: 5\n  storage_identifier: mcap\n  duration:\n    nanoseconds: " +
+                 lasted + "\n  starting_time:\n    nanoseconds_since_epoch: " + began + "\n  message_count: " + count +
+                 "\n  topics_with_message_count:\n" + topics +
+                 "  compression_format: \"\"\n  compression_mode: \"\"\n  relative_file_paths:\n    - " + name +
+                 "\n  files:\n    - path: " + name + "\n      starting_time:\n        nanoseconds_since_epoch: " +
+                 began + "\n      duration:\n        nanoseconds: " + lasted + "\n      message_count: " + count + "\n",
+             "choose another --out");
 }
 
 }  // namespace

@@ -11,12 +11,12 @@
 #include "apps/jaywalk/commands.h"
 #include "apps/setup/armed_session.h"
 #include "apps/setup/calibration.h"
-#include "apps/setup/guided_drive.h"
-#include "apps/setup/wiring_checks.h"
+#include "apps/setup/watched_drive.h"
 #include "apps/why/recorded_run.h"
 #include "firmware/control_setup.h"
 #include "firmware/recording/recorder.h"
 #include "firmware/robot/commissioned.h"
+#include "hal/shown_text.h"
 #include "hal/text_file.h"
 #include "hal/types/errors.h"
 
@@ -35,21 +35,17 @@ class Panel {
   Panel(double left, double most) : left_(left), most_(most) {}
 
   [[nodiscard]] std::string frame(const std::string& title) const {
-    char text[400];
-    std::snprintf(text, sizeof text,
-                  "<rect x='%.0f' y='%.0f' width='%.0f' height='%.0f' fill='none' stroke='#888'/>"
-                  "<path d='M%.0f %.0fh%.0fM%.0f %.0fv%.0f' stroke='#ddd'/>"
-                  "<text x='%.0f' y='%.0f'>%s, to %.3g at the rim</text>\n",
-                  left_, kMargin, kSide, kSide, left_, kMargin + 0.5 * kSide, kSide, left_ + 0.5 * kSide, kMargin,
-                  kSide, left_, kMargin - 12.0, title.c_str(), most_);
-    return text;
+    return formatted(
+        "<rect x='%.0f' y='%.0f' width='%.0f' height='%.0f' fill='none' stroke='#888'/>"
+        "<path d='M%.0f %.0fh%.0fM%.0f %.0fv%.0f' stroke='#ddd'/>"
+        "<text x='%.0f' y='%.0f'>%s, to %.3g at the rim</text>\n",
+        left_, kMargin, kSide, kSide, left_, kMargin + 0.5 * kSide, kSide, left_ + 0.5 * kSide, kMargin, kSide, left_,
+        kMargin - 12.0, title.c_str(), most_);
   }
   [[nodiscard]] std::string dot(double x, double y, const char* colour) const {
     const auto inside = [this](double value) { return 0.5 * kSide * std::clamp(value / most_, -1.0, 1.0); };
-    char text[120];
-    std::snprintf(text, sizeof text, "<circle cx='%.1f' cy='%.1f' r='3' fill='%s'/>\n", left_ + 0.5 * kSide + inside(x),
-                  kMargin + 0.5 * kSide - inside(y), colour);
-    return text;
+    return formatted("<circle cx='%.1f' cy='%.1f' r='3' fill='%s'/>\n", left_ + 0.5 * kSide + inside(x),
+                     kMargin + 0.5 * kSide - inside(y), colour);
   }
   [[nodiscard]] double most() const { return most_; }
 
@@ -71,11 +67,10 @@ std::string svg_of(const Calibration& calibration) {
                             }));
   const Panel turns(2.0 * kMargin + kSide,
                     1e3 * greatest(calibration, [](const MotionResidual& r) { return std::fabs(r.turn_rad); }));
-  char head[200];
-  std::snprintf(head, sizeof head,
-                "<svg xmlns='http://www.w3.org/2000/svg' width='%.0f' height='%.0f' font-family='sans-serif' "
-                "font-size='13'>\n<rect width='100%%' height='100%%' fill='white'/>\n",
-                3.0 * kMargin + 2.0 * kSide, 2.0 * kMargin + kSide);
+  const std::string head = formatted(
+      "<svg xmlns='http://www.w3.org/2000/svg' width='%.0f' height='%.0f' font-family='sans-serif' "
+      "font-size='13'>\n<rect width='100%%' height='100%%' fill='white'/>\n",
+      3.0 * kMargin + 2.0 * kSide, 2.0 * kMargin + kSide);
   std::string svg = head + ways.frame("wheels less scans: x, y (mm)") + turns.frame("turn (mrad), by motion");
   for (const auto& [residuals, colour] :
        {std::pair{&calibration.before, kBelieved}, std::pair{&calibration.after, kFoundColour}}) {
@@ -85,9 +80,8 @@ std::string svg_of(const Calibration& calibration) {
       svg += ways.dot(1e3 * r.x_m, 1e3 * r.y_m, colour) + turns.dot(along * turns.most(), 1e3 * r.turn_rad, colour);
     }
   }
-  char foot[120];
-  std::snprintf(foot, sizeof foot, "<text x='%.0f' y='%.0f'>grey: as believed; blue: as found</text>\n</svg>\n",
-                kMargin, kSide + 2.0 * kMargin - 18.0);
+  const std::string foot = formatted("<text x='%.0f' y='%.0f'>grey: as believed; blue: as found</text>\n</svg>\n",
+                                     kMargin, kSide + 2.0 * kMargin - 18.0);
   return svg + foot;
 }
 
@@ -109,15 +103,8 @@ Drive drive_robot() {
       "free ahead, and a metre to each side and behind?");
   const RobotFile& file = session.file();
   const GuidedDriveSetup setup{.model = file.setup.model, .tick = file.setup.tick()};
-  try {
-    std::vector<CalibrationLog> logs =
-        drive_guided(setup, session.drive(), session.lasers(), session.clock(), ArmedSession::stopped);
-    session.disarm();
-    return {std::move(logs), file.setup.model, file.drive.wheel_radii_m};
-  } catch (const StartupError&) {
-    session.disarm();
-    throw;
-  }
+  return {drive_guided(setup, session.drive(), session.lasers(), session.clock(), ArmedSession::stopped),
+          file.setup.model, file.drive.wheel_radii_m};
 }
 
 /// What devices.json of the run says; the model's where there is none, as of a simulation.
@@ -202,10 +189,7 @@ bool is_sharp(const Calibration& calibration) {
 
 void write_plot(const std::filesystem::path& file, const Calibration& calibration) {
   std::filesystem::create_directories(file.parent_path());
-  std::ofstream stream(file);
-  stream << svg_of(calibration) << std::flush;
-  if (!stream)
-    throw StartupError(file.string() + ": cannot be written", "see to the folder's rights and the disk's room");
+  write_text(file, svg_of(calibration), "see to the folder's rights and the disk's room");
 }
 
 int calibrate_robot() {
@@ -231,21 +215,19 @@ int calibrate_robot() {
 
 // Commissioning: each wheel is turned a little.
 
-int commission_robot(const SessionOptions& options) {
+std::vector<Nudge> nudge_robot(const SessionOptions& options, RobotFile& file) {
   ArmedSession session(options, "commission",
                        "The wheels will turn, each by 12 cm, forward and back. Is half a metre free all round?");
-  const RobotFile& file = session.file();
+  file = session.file();
   withdraw_commissioned(options.robot, file);
   const NudgeSetup setup{.model = file.setup.model, .tick = file.setup.tick()};
-  std::vector<Nudge> nudges;
-  try {
-    nudges = nudge_wheels(setup, session.drive(), session.lasers(), session.clock(), ArmedSession::stopped);
-  } catch (const StartupError&) {
-    session.disarm();
-    throw;
-  }
-  session.disarm();
-  const std::vector<CheckedPart> checks = judge_nudges(nudges, setup.model);
+  return nudge_wheels(setup, session.drive(), session.lasers(), session.clock(), ArmedSession::stopped);
+}
+
+int commission_robot(const SessionOptions& options) {
+  RobotFile file;
+  const std::vector<Nudge> nudges = nudge_robot(options, file);
+  const std::vector<CheckedPart> checks = judge_nudges(nudges, file.setup.model);
   for (const CheckedPart& check : checks)
     std::printf("%-4s  %-15s %s\n", check.is_well ? "ok" : "FAIL", check.part.c_str(), check.said.c_str());
   write_commissioned(options.robot, file, checks);

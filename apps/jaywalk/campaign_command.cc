@@ -1,7 +1,6 @@
 #include <sched.h>
 
 #include <algorithm>
-#include <charconv>
 #include <chrono>
 #include <cstdio>
 #include <thread>
@@ -46,14 +45,8 @@ std::filesystem::path own_program() {
 
 /// "8 s", "12 min", "3.5 h".
 std::string time_in_words(double seconds) {
-  char text[32];
-  if (seconds < 90.0)
-    std::snprintf(text, sizeof text, "%.0f s", seconds);
-  else if (seconds < 5400.0)
-    std::snprintf(text, sizeof text, "%.0f min", seconds / 60.0);
-  else
-    std::snprintf(text, sizeof text, "%.1f h", seconds / 3600.0);
-  return text;
+  if (seconds < 90.0) return formatted("%.0f s", seconds);
+  return seconds < 5400.0 ? formatted("%.0f min", seconds / 60.0) : formatted("%.1f h", seconds / 3600.0);
 }
 
 /// Counts what is done and tells it: a bar on a terminal, a line a run elsewhere.
@@ -168,12 +161,9 @@ int run_campaign(const CampaignOptions& options) {
 
 /// "2/4": the second of four. Throws StartupError for what is none.
 campaign::Shard shard_from(const std::string& word) {
-  campaign::Shard shard;
-  const char* const end = word.data() + word.size();
-  const auto part = std::from_chars(word.data(), end, shard.part);
-  const bool divided = part.ec == std::errc() && part.ptr != end && *part.ptr == '/';
-  const auto of = divided ? std::from_chars(part.ptr + 1, end, shard.of) : part;
-  if (divided && of.ec == std::errc() && of.ptr == end && shard.part >= 1 && shard.part <= shard.of) return shard;
+  const std::size_t slash = std::min(word.find('/'), word.size() - 1);
+  const auto part = number_in<std::size_t>(word.substr(0, slash)), of = number_in<std::size_t>(word.substr(slash + 1));
+  if (part && of && *part >= 1 && *part <= *of) return {*part, *of};
   throw StartupError("--shard: " + shown(word) + " is no share", "give I/N, 1/4 to 4/4 say");
 }
 

@@ -1,7 +1,6 @@
 #include "apps/jaywalk/commands.h"
 
-#include <charconv>
-#include <cstdio>
+#include <cmath>
 
 #include "hal/shown_text.h"
 #include "hal/types/errors.h"
@@ -10,21 +9,22 @@ namespace jaywalk {
 namespace {
 
 std::uint16_t port_of(const std::string& word) {
-  std::uint16_t port = 0;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), port);
-  if (error == std::errc() && end == word.data() + word.size()) return port;
+  if (const auto port = number_in<std::uint16_t>(word)) return *port;
   throw StartupError("--view: " + shown(word) + " is no port",
                      "give a whole number from 0 to 65535 (0: any that is free)");
 }
 
 }  // namespace
 
-double sound(const char* option, double value) {
-  constexpr double kFarthest = 1e6;
-  if (value >= -kFarthest && value <= kFarthest) return value;
-  char text[32];
-  std::snprintf(text, sizeof text, "%g", value);
-  throw StartupError(std::string(option) + ": " + text + " is no place", "give metres and radians");
+void add_place(CLI::App& command, const std::string& name, int count,
+               const std::function<void(const std::vector<double>&)>& take, const std::string& description) {
+  const auto take_sound = [=](const std::vector<double>& values) {
+    for (const double value : values)
+      if (!(std::fabs(value) <= 1e6))
+        throw StartupError(name + formatted(": %g is no place", value), "give metres and radians");
+    take(values);
+  };
+  command.add_option_function<std::vector<double>>(name, take_sound, description)->delimiter(',')->expected(count);
 }
 
 void add_view(CLI::App& command, std::optional<view::ViewAddress>& chosen) {

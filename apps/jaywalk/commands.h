@@ -1,6 +1,7 @@
 #pragma once
 // The commands of `jaywalk`, each with its options in a file of its own.
 #include <CLI/CLI.hpp>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -45,8 +46,10 @@ void add_why(CLI::App& app, int& exit_code);
 /// --view [PORT], --view-address, --view-certificate and --view-origin. Parsing throws StartupError for what is no
 /// port.
 void add_view(CLI::App& command, std::optional<view::ViewAddress>& chosen);
-/// `value` when it can be a place (m) or an angle; NaN cannot. Throws StartupError.
-[[nodiscard]] double sound(const char* option, double value);
+/// An option of `count` numbers with commas between them, places (m) and angles (rad), which `take` gets. Parsing
+/// throws StartupError for NaN and what is farther than 1000 km.
+void add_place(CLI::App& command, const std::string& name, int count,
+               const std::function<void(const std::vector<double>&)>& take, const std::string& description);
 
 /// --man, --markdown and --completion: printed from what --help prints from, so that they cannot differ.
 void add_manual_options(CLI::App& app);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "apps/jaywalk/commands.h"
+#include "hal/shown_text.h"
 #include "hal/text_file.h"
 #include "hil/faults/fault_matrix.h"
 
@@ -25,11 +26,9 @@ using faults::FaultResult;
 double in_ms(Duration d) { return 1e3 * to_seconds(d); }
 
 std::string csv_row(const FaultResult& row) {
-  char text[200];
-  std::snprintf(text, sizeof text, "%s,%s,%.1f,%.0f,%.0f,%.3f,%d,%d\n", row.fault->name, faults::name_of(row.drive),
-                row.speed_mps, in_ms(row.reaction), in_ms(row.limit), row.stop_distance_m, row.latched ? 1 : 0,
-                row.why_not.empty() ? 1 : 0);
-  return text;
+  return formatted("%s,%s,%.1f,%.0f,%.0f,%.3f,%d,%d\n", row.fault->name, faults::name_of(row.drive), row.speed_mps,
+                   in_ms(row.reaction), in_ms(row.limit), row.stop_distance_m, row.latched ? 1 : 0,
+                   row.why_not.empty() ? 1 : 0);
 }
 
 void print(const FaultResult& row) {
@@ -56,9 +55,7 @@ Reaction reaction_in(Rows rows, bool of_pioneer) {
 }
 
 std::string in_words(const Reaction& reaction) {
-  char times[40];
-  std::snprintf(times, sizeof times, "%.0f/%.0f", in_ms(reaction.slowest), in_ms(reaction.limit));
-  return times;
+  return formatted("%.0f/%.0f", in_ms(reaction.slowest), in_ms(reaction.limit));
 }
 
 /// Cells of a fault's row: the slowest reaction of all drives, the Pioneer's apart where its limit differs, then each
@@ -67,8 +64,7 @@ std::string figures_of(Rows rows) {
   std::array<std::string, kKinds> ways;
   for (const FaultResult& row : rows) {
     std::string& way = ways.at(static_cast<std::size_t>(row.drive));
-    char metres[20];
-    std::snprintf(metres, sizeof metres, "%s%.2f", way.empty() ? "" : "/", row.stop_distance_m);
+    const std::string metres = formatted("%s%.2f", way.empty() ? "" : "/", row.stop_distance_m);
     way += metres;
   }
   const Reaction others = reaction_in(rows, false), pioneer = reaction_in(rows, true);

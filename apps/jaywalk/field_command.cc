@@ -10,6 +10,7 @@
 #include "apps/rivals/paper_mode.h"
 #include "firmware/program/program.h"
 #include "hal/shown_text.h"
+#include "hal/text_file.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk {
@@ -43,11 +44,10 @@ std::int32_t cell_number(double metres, double cell_m) {
 void tell_moved_goal(const FieldOptions& options, const MapCells& map, CellIndex asked, CellIndex at) {
   if (!options.goal || (asked.i == at.i && asked.j == at.j)) return;
   const Vec2 to = map.map_from_cells * Vec2{(at.i + 0.5) * map.cell_m, (at.j + 0.5) * map.cell_m};
-  char text[160];
-  std::snprintf(text, sizeof text,
-                "jaywalk: --goal %.2f,%.2f lies in a wall or too near one; the field leads to %.2f,%.2f\n",
+  const std::string text =
+      formatted("jaywalk: --goal %.2f,%.2f lies in a wall or too near one; the field leads to %.2f,%.2f\n",
                 options.goal->x, options.goal->y, to.x, to.y);
-  std::fputs(without_minus_zero(text).c_str(), stderr);
+  std::fputs(text.c_str(), stderr);
 }
 
 CellIndex goal_cell(const FieldOptions& options, const MapCells& map, const MapField& solver) {
@@ -87,18 +87,10 @@ void write_npy(const std::filesystem::path& file, const MapCells& map, const Map
   if (!out.flush()) throw StartupError(file.string() + ": cannot be written", "choose another --out");
 }
 
-void write_json(const std::filesystem::path& file, const nlohmann::ordered_json& json) {
-  std::ofstream out(file);
-  out << json.dump(2) << '\n';
-  if (!out.flush()) throw StartupError(file.string() + ": cannot be written", "choose another --out");
-}
-
 /// For a person: the share of cells that pick the exact field's best neighbour.
 std::string best_in_words(const std::optional<double>& best) {
   if (!best) return "best neighbours not counted (too many cells)";
-  char text[64];
-  std::snprintf(text, sizeof text, "%.3f %% pick the best neighbour", 100.0 * *best);
-  return text;
+  return formatted("%.3f %% pick the best neighbour", 100.0 * *best);
 }
 
 int run_field(const FieldOptions& options) {
@@ -129,7 +121,7 @@ int run_field(const FieldOptions& options) {
                               {"joined_cells", cold.joined},
                               {"best_neighbours", nullptr}};
   if (best) json["best_neighbours"] = *best;
-  write_json(options.out / "field.json", json);
+  write_text(options.out / "field.json", json.dump(2) + "\n", "choose another --out");
   std::printf("%s: %d x %d cells, %s, reach %.4f, %s, cold %.2f ms, warm %.2f ms on %s; see %s\n", options.map.c_str(),
               map.cells.width, map.cells.height, cold.certified ? "certified" : "not certified",
               static_cast<double>(reach), best_in_words(best).c_str(), cold_time.p50_ms, warm_time.p50_ms,
@@ -142,15 +134,12 @@ int run_field(const FieldOptions& options) {
 void add_field(CLI::App& app, int& exit_code) {
   CLI::App* field = app.add_subcommand("field", "The potential field of a map alone");
   field->add_option("map", field_options.map, "map_server YAML, ARIA .map, cylinders .txt, or a picture")->required();
-  field
-      ->add_option_function<std::vector<double>>(
-          "--goal",
-          [](const std::vector<double>& v) {
-            field_options.goal = Vec2{sound("--goal", v[0]), sound("--goal", v[1])};
-          },
-          "Goal X,Y in the map (default: the free cell nearest its middle)")
-      ->delimiter(',')
-      ->expected(2);
+  add_place(
+      *field, "--goal", 2,
+      [](const auto& v) {
+        field_options.goal = Vec2{v[0], v[1]};
+      },
+      "Goal X,Y in the map (default: the free cell nearest its middle)");
   field->add_option("--inflation,--inflation_m", field_options.inflation_m, "Walls grow by this (m)")
       ->capture_default_str();
   field->add_option("--resolution", field_options.cell_m, "Metres a cell: of a picture, of lines or cylinders");

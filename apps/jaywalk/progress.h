@@ -1,5 +1,8 @@
 #pragma once
 // How far a long command is, for a person at a terminal.
+#include <unistd.h>
+
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
@@ -11,7 +14,8 @@ namespace jaywalk {
 /// nothing is written.
 class Progress {
  public:
-  explicit Progress(std::FILE* to = stderr, std::chrono::milliseconds between = std::chrono::milliseconds(100));
+  explicit Progress(std::FILE* to = stderr, std::chrono::milliseconds between = std::chrono::milliseconds(100))
+      : to_(to), between_(between), seen_(isatty(fileno(to)) == 1) {}
   ~Progress() { make_way(); }
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
@@ -19,13 +23,31 @@ class Progress {
   /// Whether there is a terminal: elsewhere lines may be printed in place of the bar.
   [[nodiscard]] bool is_seen() const { return seen_; }
   /// Whether anybody sees it: what show() is to say need not be made otherwise.
-  [[nodiscard]] bool is_due() const;
+  [[nodiscard]] bool is_due() const { return seen_ && std::chrono::steady_clock::now() >= due_; }
   /// `share`: of the whole, held to 0 to 1 (NaN: 0); `what`: a few words beside the bar.
-  void show(double share, const std::string& what);
+  void show(double share, const std::string& what) {
+    if (!is_due()) return;
+    const double held = share > 0.0 ? std::min(share, 1.0) : 0.0;
+    const std::string full(static_cast<std::size_t>(held * kBarCells), '#');
+    const std::string line = what.substr(0, kWordCells);
+    std::fprintf(to_, "\r[%-*s] %-*s", kBarCells, full.c_str(), kWordCells, line.c_str());
+    std::fflush(to_);
+    standing_ = true;
+    due_ = std::chrono::steady_clock::now() + between_;
+  }
   /// Takes the bar off the terminal, so that something else can be printed.
-  void make_way();
+  void make_way() {
+    if (!standing_) return;
+    std::fprintf(to_, "\r%*s\r", kLineCells, "");
+    std::fflush(to_);
+    standing_ = false;
+  }
 
  private:
+  static constexpr int kBarCells = 30;
+  /// With "[", "] " and the bar 76 cells: narrower than any terminal, whose line would break otherwise.
+  static constexpr int kWordCells = 43, kLineCells = kBarCells + 3 + kWordCells;
+
   std::FILE* to_;
   std::chrono::milliseconds between_;
   bool seen_;              ///< `to` is a terminal

@@ -16,7 +16,7 @@
 #include "apps/setup/mount_search.h"
 #include "apps/view/live_view.h"
 #include "apps/why/recorded_run.h"
-#include "firmware/loop_runner.h"
+#include "firmware/control_loop.h"
 #include "firmware/recording/map_files.h"
 #include "firmware/recording/recorded_hal.h"
 #include "firmware/recording/run_folders.h"
@@ -145,13 +145,11 @@ sim::RecordedLog load_and_complain(const ReplayOptions& options, const std::stri
 }
 
 void suggest_mount(const Pose2& given, double missing_yaw) {
-  char text[200];
-  std::snprintf(
-      text, sizeof text,
+  const std::string text = formatted(
       "jaywalk: the scans slide aside of where the wheels drive: is the laser mounted turned? Try --laser-mount "
       "%.2f,%.2f,%.2f, and on until this line is gone\n",
       given.x, given.y, wrap_angle(given.heading + missing_yaw));
-  std::fputs(without_minus_zero(text).c_str(), stderr);
+  std::fputs(text.c_str(), stderr);
 }
 
 void tell(Progress& progress, const sim::LogReplay& log, Time now) {
@@ -194,9 +192,8 @@ int replay_log(const ReplayOptions& options, const std::string& format) {
   const std::string name = options.logs[0].filename().string();
   const bool whole = log.ended();
   const std::size_t scans = log.log().scans.size();
-  char told[100];
-  std::snprintf(told, sizeof told, ": %zu %s over %.1f s", scans, scans == 1 ? "scan" : "scans",
-                to_seconds(log.end_time() - log.start_time()));
+  const std::string told = formatted(": %zu %s over %.1f s", scans, scans == 1 ? "scan" : "scans",
+                                     to_seconds(log.end_time() - log.start_time()));
   conclude(options, runner,
            {.outcome = whole ? "replayed" : "interrupted",
             .success = whole,
@@ -311,25 +308,18 @@ void add_replay(CLI::App& app, int& exit_code) {
       ->check(CLI::IsMember({"scan-odom", "carmen", "bag", "jaywalk"}));
   replay->add_option("--scan-topic", replay_options.scan_topic, "A bag's scans (default: the only LaserScan topic)");
   replay->add_option("--odom-topic", replay_options.odom_topic, "A bag's odometry (default: the only Odometry topic)");
-  replay
-      ->add_option_function<std::vector<double>>(
-          "--goal",
-          [](const std::vector<double>& v) {
-            replay_options.goal = Vec2{sound("--goal", v[0]), sound("--goal", v[1])};
-          },
-          "Goal X,Y in the recording's frame (default: its last pose)")
-      ->delimiter(',')
-      ->expected(2);
-  replay
-      ->add_option_function<std::vector<double>>(
-          "--laser-mount",
-          [](const std::vector<double>& v) {
-            const auto part = [&](std::size_t k) { return sound("--laser-mount", v[k]); };
-            replay_options.laser_mount = Pose2{part(0), part(1), wrap_angle(part(2))};
-          },
-          "X,Y,YAW of the laser on the robot (m, m, rad)")
-      ->delimiter(',')
-      ->expected(3);
+  add_place(
+      *replay, "--goal", 2,
+      [](const auto& v) {
+        replay_options.goal = Vec2{v[0], v[1]};
+      },
+      "Goal X,Y in the recording's frame (default: its last pose)");
+  add_place(
+      *replay, "--laser-mount", 3,
+      [](const auto& v) {
+        replay_options.laser_mount = Pose2{v[0], v[1], wrap_angle(v[2])};
+      },
+      "X,Y,YAW of the laser on the robot (m, m, rad)");
   replay->add_option(
       "--model", replay_options.model,
       "Whose body it is: p3dx, wheelchair, or a robot model file (default: p3dx); its laser's mount too");

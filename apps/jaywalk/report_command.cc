@@ -4,7 +4,7 @@
 #include "apps/campaign/campaign_folder.h"
 #include "apps/campaign/report.h"
 #include "apps/jaywalk/commands.h"
-#include "apps/report/run_words.h"
+#include "apps/report/drive_metrics.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk {

@@ -7,7 +7,7 @@
 
 #include "apps/jaywalk/commands.h"
 #include "apps/setup/robot_setup.h"
-#include "firmware/program/run_command.h"
+#include "firmware/program/program.h"
 #include "firmware/robot/realtime.h"
 #include "firmware/robot/robot_file.h"
 #include "hal/types/errors.h"

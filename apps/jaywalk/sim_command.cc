@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <charconv>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -11,7 +10,7 @@
 #include "apps/report/run_observer.h"
 #include "apps/rivals/paper_mode.h"
 #include "apps/view/live_view.h"
-#include "firmware/loop_runner.h"
+#include "firmware/control_loop.h"
 #include "firmware/program/program.h"
 #include "firmware/recording/map_files.h"
 #include "firmware/safety/stop_zone.h"
@@ -209,8 +208,7 @@ void tell(Progress& progress, const sim::Scenario& scenario, const sim::Truth& t
   if (!progress.is_due()) return;
   const double whole_m = distance(scenario.start.position(), scenario.goal);
   const double left_m = distance(truth.map_from_robot.position(), scenario.goal);
-  char words[64];
-  std::snprintf(words, sizeof words, "%.0f s, %.1f m to the goal", to_seconds(truth.now), left_m);
+  const std::string words = formatted("%.0f s, %.1f m to the goal", to_seconds(truth.now), left_m);
   progress.show(1.0 - left_m / whole_m, words);
 }
 
@@ -287,9 +285,7 @@ int run_sim(SimOptions options) {
 
 /// The parser's own numbers stop at the greatest without a word.
 std::uint64_t seed_of(const std::string& word) {
-  std::uint64_t seed = 0;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), seed);
-  if (error == std::errc() && end == word.data() + word.size()) return seed;
+  if (const auto seed = number_in<std::uint64_t>(word)) return *seed;
   throw StartupError("--seed: " + shown(word) + " is no seed", "give a whole number from 0 to 18446744073709551615");
 }
 

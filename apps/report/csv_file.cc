@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "hal/shown_text.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk {
@@ -27,8 +28,6 @@ CsvFile::CsvFile(const std::string& file, std::string_view header) : file_(file)
   rows_.reserve(kBlockBytes + 1024);
   rows_.append(header).append("\n");
 }
-
-CsvFile::~CsvFile() { close(); }
 
 bool CsvFile::close() {
   write_out();
@@ -124,11 +123,9 @@ bool CsvRows::next() {
 
 double CsvRows::number(std::size_t k) const {
   const std::string& word = text(k);
-  double value = std::numeric_limits<double>::quiet_NaN();
-  if (word.empty()) return value;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (error != std::errc() || end != word.data() + word.size()) refuse();
-  return value;
+  const auto value = number_in<double>(word);
+  if (!value && !word.empty()) refuse();
+  return value.value_or(std::numeric_limits<double>::quiet_NaN());
 }
 
 }  // namespace jaywalk

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "firmware/recording/append_file.h"
+#include "firmware/recording/recorder.h"
 #include "hal/types/time.h"
 
 namespace jaywalk {
@@ -18,9 +18,7 @@ class CsvFile {
  public:
   /// Throws StartupError when the file cannot be made.
   CsvFile(const std::string& file, std::string_view header);
-  ~CsvFile();
-  CsvFile(const CsvFile&) = delete;
-  CsvFile& operator=(const CsvFile&) = delete;
+  ~CsvFile() { close(); }
 
   CsvFile& number(double value);
   CsvFile& count(std::uint64_t value);

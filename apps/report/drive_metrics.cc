@@ -1,14 +1,19 @@
 #include "apps/report/drive_metrics.h"
 
-#include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "hal/shown_text.h"
 
 namespace jaywalk {
 namespace {
+
 constexpr double kLoop_rad = 340.0 / 180.0 * kPi, kWithin_m = 10.0, kPiece_m = 0.05;
+
+constexpr double kFor_m = 3.0;  ///< a body farther off is no reason
+constexpr double kWalks_mps = 0.2;
+constexpr std::size_t kMostLines = 10;
+
+std::string place_of(double t_s, Vec2 where) { return formatted("  at %.1f s, %.1f, %.1f m", t_s, where.x, where.y); }
 
 }  // namespace
 
@@ -102,19 +107,6 @@ void DetourCount::judge(double t_s, double to_go_m) {
     detours_.push_back({from_s_, t_s});
 }
 
-namespace {
-constexpr double kFor_m = 3.0;  ///< a body farther off is no reason
-constexpr double kWalks_mps = 0.2;
-constexpr std::size_t kMostLines = 10;
-
-std::string place_of(double t_s, Vec2 where) {
-  char text[80];
-  std::snprintf(text, sizeof text, "  at %.1f s, %.1f, %.1f m", t_s, where.x, where.y);
-  return without_minus_zero(text);
-}
-
-}  // namespace
-
 void Moments::add(double from_s, double for_s, Vec2 position_in_map, const std::string& what) {
   moments_.push_back({from_s, for_s, position_in_map, what, kFor_m});
 }
@@ -133,12 +125,11 @@ std::string Moments::words(const std::string& title) const {
   longest.resize(std::min(longest.size(), kMostLines));
   std::string text;
   for (const Moment& moment : longest) {
-    char line[96];
-    std::snprintf(line, sizeof line, ", for %.1f s", moment.for_s);
-    text += place_of(moment.from_s, moment.where) + line + (moment.what.empty() ? "" : ": " + moment.what);
-    std::snprintf(line, sizeof line, "; body %u was %.1f m from its middle and %s", moment.id, moment.nearest_m,
-                  moment.speed_mps > kWalks_mps ? "walked" : "stood");
-    text += std::string(moment.id != 0 ? line : "; nobody was near") + "\n";
+    text += place_of(moment.from_s, moment.where) + formatted(", for %.1f s", moment.for_s) +
+            (moment.what.empty() ? "" : ": " + moment.what);
+    text += moment.id == 0 ? "; nobody was near\n"
+                           : formatted("; body %u was %.1f m from its middle and %s\n", moment.id, moment.nearest_m,
+                                       moment.speed_mps > kWalks_mps ? "walked" : "stood");
   }
   if (moments_.size() > kMostLines) text += "  and " + std::to_string(moments_.size() - kMostLines) + " shorter\n";
   return text.empty() ? "" : title + "\n" + text;

@@ -1,6 +1,6 @@
 #include "apps/report/run_observer.h"
 
-#include "apps/report/picture/picture.h"
+#include "apps/report/picture/scene.h"
 #include "hal/shown_text.h"
 
 namespace jaywalk {

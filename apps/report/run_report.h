@@ -39,12 +39,16 @@ class RunTables {
   /// Throws StartupError when `folder` cannot be written to.
   explicit RunTables(const std::filesystem::path& folder);
   void add(const RunSample& sample);
-  void close();
+  void close() {
+    for (CsvFile* const table : {&robot_, &movers_, &tracks_}) table->close();
+  }
   /// Goes on after `before`, which has the tracks of the last scan.
   void follow(const RunTables& before) noexcept { scan_count_ = before.scan_count_; }
   /// Of all three, with what is not on the disk yet.
   [[nodiscard]] std::uintmax_t bytes() const noexcept { return robot_.bytes() + movers_.bytes() + tracks_.bytes(); }
-  [[nodiscard]] bool is_losing() const noexcept;
+  [[nodiscard]] bool is_losing() const noexcept {
+    return robot_.has_failed() || movers_.has_failed() || tracks_.has_failed();
+  }
   /// AppendFile's, of each table that the disk did not take whole.
   [[nodiscard]] std::vector<std::string> complaints() const;
 

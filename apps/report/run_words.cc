@@ -1,5 +1,3 @@
-#include "apps/report/run_words.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>

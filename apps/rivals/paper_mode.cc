@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "apps/rivals/baseline.h"
-#include "hal/maps/occupancy.h"
+#include "hal/maps/image_file.h"
 #include "hal/sim/walls.h"
 #include "hal/text_file.h"
 #include "hal/types/errors.h"
@@ -40,33 +40,6 @@ ChosenPlanner make_planner_of_paper(const ControlSetup& setup) {
   return make_paper_planner({setup.planner(), setup.mover_radius_m()}, setup.backend, setup.device);
 }
 
-}  // namespace
-
-void equip(ControlSetup& setup) noexcept {
-  setup.make_motion = baseline::maker_of(setup.rival);
-  if (setup.mode != PlanMode::kPaper) return;
-  setup.make_motion = paper::make_motion;
-  setup.make_planner = make_planner_of_paper;
-}
-
-ChosenPlanner make_paper_planner(const paper::PaperConfig& config, Backend backend, int device) {
-  auto cpu = paper::make_cpu_paper_planner(config);
-  if (backend == Backend::kCpu) return {std::move(cpu), ""};
-  std::string why_not;
-  auto planner = paper::make_cuda_paper_planner(config, device, why_not);
-  return backed(backend, std::move(planner), std::move(cpu), why_not);
-}
-
-std::unique_ptr<paper::MapField> make_map_field(const paper::CellMap& map, Backend backend, int device) {
-  if (backend == Backend::kCpu) return paper::make_cpu_map_field(map);
-  std::string why_not;
-  if (auto solver = paper::make_cuda_map_field(map, device, why_not)) return solver;
-  if (backend == Backend::kCuda) refuse_cuda(why_not);
-  return paper::make_cpu_map_field(map);
-}
-
-namespace {
-
 constexpr double kDefaultCell_m = 0.1;
 
 void check_size(const std::string& file, double width, double height) {
@@ -100,6 +73,29 @@ MapCells drawn_cells(const std::filesystem::path& file, sim::WallMap map, double
 }
 
 }  // namespace
+
+void equip(ControlSetup& setup) noexcept {
+  setup.make_motion = baseline::maker_of(setup.rival);
+  if (setup.mode != PlanMode::kPaper) return;
+  setup.make_motion = paper::make_motion;
+  setup.make_planner = make_planner_of_paper;
+}
+
+ChosenPlanner make_paper_planner(const paper::PaperConfig& config, Backend backend, int device) {
+  auto cpu = paper::make_cpu_paper_planner(config);
+  if (backend == Backend::kCpu) return {std::move(cpu), ""};
+  std::string why_not;
+  auto planner = paper::make_cuda_paper_planner(config, device, why_not);
+  return backed(backend, std::move(planner), std::move(cpu), why_not);
+}
+
+std::unique_ptr<paper::MapField> make_map_field(const paper::CellMap& map, Backend backend, int device) {
+  if (backend == Backend::kCpu) return paper::make_cpu_map_field(map);
+  std::string why_not;
+  if (auto solver = paper::make_cuda_map_field(map, device, why_not)) return solver;
+  if (backend == Backend::kCuda) refuse_cuda(why_not);
+  return paper::make_cpu_map_field(map);
+}
 
 MapCells load_map_cells(const std::filesystem::path& file, std::optional<double> cell_m) {
   const std::string name = file.string(), ending = file.extension().string();

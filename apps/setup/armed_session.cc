@@ -56,7 +56,7 @@ ArmedSession::ArmedSession(const SessionOptions& options, const std::string& nam
   static_cast<void>(devices_->drive().arm());
 }
 
-void ArmedSession::disarm() {
+ArmedSession::~ArmedSession() {
   const Time limit = clock_.now() + std::chrono::milliseconds(500);
   do {
     static_cast<void>(devices_->drive().latest());

@@ -20,14 +20,14 @@ struct SessionOptions {
   bool allow_no_realtime = false;        ///< goes on where the kernel refuses what the file asks for
 };
 
-/// Armed from its construction on. `jaywalk stop`, SIGINT and SIGTERM are told by stopped(). Once a process.
+/// Armed while it lives. `jaywalk stop`, SIGINT and SIGTERM are told by stopped(). Once a process.
 class ArmedSession {
  public:
   /// `name`: the command's; `motion`: what a person is asked to allow, "The wheels will turn ... Is ... free?" Throws
   /// StartupError where it may not begin.
   ArmedSession(const SessionOptions& options, const std::string& name, const std::string& motion);
-  /// At rest already.
-  void disarm();
+  /// Disarms the drives, which are at rest already.
+  ~ArmedSession();
 
   [[nodiscard]] const RobotFile& file() const { return file_; }
   [[nodiscard]] WiredDrive& drive() { return devices_->drive(); }

@@ -1,16 +1,16 @@
 #include <array>
-#include <cstdio>
 #include <map>
 #include <memory>
 #include <set>
 
 #include "apps/setup/robot_setup.h"
-#include "drivers/arcos/arcos.h"
-#include "drivers/can/byte_bus.h"
+#include "drivers/arcos/arcos_base.h"
+#include "drivers/can/can_bus.h"
 #include "drivers/canopen/sdo_client.h"
 #include "drivers/motor/odrive.h"
 #include "drivers/motor/vesc.h"
 #include "drivers/wire/byte_reader.h"
+#include "hal/shown_text.h"
 
 namespace jaywalk {
 namespace {
@@ -117,10 +117,8 @@ FoundDrives ask_canopen(CanBus& bus, Clock& clock) {
   constexpr std::array kParts{"vendor", "product", "revision", "serial number"};
   for (std::uint8_t sub = 1; sub <= kParts.size(); ++sub) {
     for (const auto& [node, value] : questions.ask(drives, {0x1018, sub})) {
-      std::array<char, 40> part{};
-      std::snprintf(part.data(), part.size(), "%s%s %08Xh", identity[node].empty() ? "" : ", ", kParts[sub - 1U],
-                    static_cast<unsigned>(value));
-      identity[node] += part.data();
+      identity[node] +=
+          formatted("%s%s %08Xh", identity[node].empty() ? "" : ", ", kParts[sub - 1U], static_cast<unsigned>(value));
     }
   }
   for (const std::uint8_t node : drives)

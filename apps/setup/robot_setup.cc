@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <initializer_list>
 #include <set>
 
-#include "drivers/laser/scanner_setup.h"
+#include "drivers/laser/scanner_connection.h"
 #include "hal/robot_model_file.h"
+#include "hal/shown_text.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk {
@@ -301,9 +301,7 @@ class Setup {
       enter("port", std::to_string(wiring.port));
     }
     enter("beams", std::to_string(scanner.beams));
-    std::array<char, 32> fov{};
-    std::snprintf(fov.data(), fov.size(), "%.2f", scanner.fov_deg);
-    enter("fov_deg", fov.data());
+    enter("fov_deg", formatted("%.2f", scanner.fov_deg));
     enter("rate_hz", literal(scanner.rate_hz));
   }
 

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "apps/setup/robot_draft.h"
-#include "apps/setup/setup_answers.h"
 #include "drivers/can/can_bus.h"
 #include "firmware/robot/drive_wiring.h"
 #include "firmware/robot/robot_file.h"

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -10,7 +9,8 @@
 #include "apps/setup/robot_setup.h"
 #include "drivers/can/can_interface.h"
 #include "drivers/can/socketcan.h"
-#include "drivers/laser/scanner_setup.h"
+#include "drivers/laser/scanner_connection.h"
+#include "hal/shown_text.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk {
@@ -198,9 +198,8 @@ std::string place_of(const FoundScanner& scanner) {
 }
 
 std::string describe(const FoundScanner& scanner) {
-  char figures[80];
-  std::snprintf(figures, sizeof figures, ": %u beams over %.2f degrees, %g a second",
-                static_cast<unsigned>(scanner.beams), scanner.fov_deg, scanner.rate_hz);
+  const std::string figures = formatted(": %u beams over %.2f degrees, %g a second",
+                                        static_cast<unsigned>(scanner.beams), scanner.fov_deg, scanner.rate_hz);
   return std::string(scanner_make(scanner.wiring.kind).name) + " at " + place_of(scanner) + figures;
 }
 

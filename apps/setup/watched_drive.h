@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "drivers/wired_drive.h"
+#include "firmware/robot/preflight.h"
 #include "firmware/safety/felt_motion.h"
 #include "firmware/safety/latency.h"
 #include "firmware/safety/stop_zone.h"
@@ -90,5 +91,9 @@ struct NudgeSetup {
 [[nodiscard]] std::vector<Nudge> nudge_wheels(const NudgeSetup& setup, WiredDrive& drive,
                                               std::span<LaserScanner* const> lasers, Clock& clock,
                                               const std::function<bool()>& stopped);
+
+/// Judges each drive by its feedback, then what each scanner's scans show of each nudge against it; of several each
+/// part begins with the scanner's name. Wirings that look alike are named together.
+[[nodiscard]] std::vector<CheckedPart> judge_nudges(const std::vector<Nudge>& nudges, const RobotModel& model);
 
 }  // namespace jaywalk

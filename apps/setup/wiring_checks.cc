@@ -1,12 +1,11 @@
-#include "apps/setup/wiring_checks.h"
-
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
 #include <optional>
 
 #include "apps/setup/scan_surfels.h"
+#include "apps/setup/watched_drive.h"
+#include "hal/shown_text.h"
 
 namespace jaywalk {
 namespace {
@@ -82,17 +81,13 @@ CheckedPart check_feedback(const std::vector<Nudge>& nudges, std::size_t side, c
 
 /// Against what staleness, obedience and stop zone reckon with.
 CheckedPart check_response(double measured_s, const DriveTimes& times) {
-  char said[160];
   const bool well = measured_s <= times.obeyed_within_s();
-  if (well) {
-    std::snprintf(said, sizeof said, "the feedback follows commands by %.2f s", measured_s);
-  } else {
-    std::snprintf(
-        said, sizeof said,
-        "the feedback follows commands by %.2f s, more than %.2f; write response_ms = %.0f in [drive], or have "
-        "the drives ramp and filter less",
-        measured_s, times.obeyed_within_s(), 1e3 * measured_s);
-  }
+  const std::string said =
+      formatted("the feedback follows commands by %.2f s", measured_s) +
+      (well
+           ? ""
+           : formatted(", more than %.2f; write response_ms = %.0f in [drive], or have the drives ramp and filter less",
+                       times.obeyed_within_s(), 1e3 * measured_s));
   return {"response", well, said};
 }
 
@@ -143,9 +138,9 @@ CheckedPart check_sides(const Signs& left, const Signs& right) {
 
 CheckedPart check_counts(const SideMotion& seen, std::size_t side, double track_m) {
   const double share = seen.seen_rad * track_m / seen.felt_m;
-  char said[160];
   const bool well = std::fabs(share - 1.0) <= kTolerance;
-  std::snprintf(said, sizeof said, "the scans show %.2f of the way that its encoder counts%s", share,
+  const std::string said =
+      formatted("the scans show %.2f of the way that its encoder counts%s", share,
                 well ? "" : "; correct its counts or turns a wheel turn, wheel_radius_m or track_width_m");
   return {std::string(side_name(side)) + " counts", well, said};
 }
@@ -195,21 +190,17 @@ MountCheck check_mount(const std::vector<Nudge>& nudges, const RobotModel& model
   const MountStep ahead = best_step(12, nudges, model.drive, scanner, [&](int k) {  // to 0.6 m
     return Pose2{file.x + 0.05 * k, file.y, file.heading};
   });
-  char said[160];
   const bool is_turned = std::abs(turned.step) >= kOffMountSteps && turned.misfit_m <= ahead.misfit_m;
   const bool is_off = !is_turned && std::abs(ahead.step) >= kOffAxleSteps;
-  if (is_turned) {
-    std::snprintf(said, sizeof said, "it is turned by about %d degrees more than the file says; correct [laser] mount",
-                  5 * turned.step);
-  } else if (is_off) {
-    std::snprintf(said, sizeof said,
-                  "it lies about %.2f m farther %s the drive axle than the file says; correct [laser] mount, whose x "
-                  "begins at the axle",
-                  0.05 * std::abs(ahead.step), ahead.step > 0 ? "ahead of" : "behind");
-  } else {
-    std::snprintf(said, sizeof said, "it is where the file says, as far as %d degrees and %.2f m can be told",
-                  5 * kOffMountSteps, 0.05 * kOffAxleSteps);
-  }
+  const std::string said =
+      is_turned ? formatted("it is turned by about %d degrees more than the file says; correct [laser] mount",
+                            5 * turned.step)
+      : is_off  ? formatted(
+                      "it lies about %.2f m farther %s the drive axle than the file says; correct [laser] mount, "
+                       "whose x begins at the axle",
+                      0.05 * std::abs(ahead.step), ahead.step > 0 ? "ahead of" : "behind")
+               : formatted("it is where the file says, as far as %d degrees and %.2f m can be told", 5 * kOffMountSteps,
+                           0.05 * kOffAxleSteps);
   return {{"scanner's mount", !is_turned && !is_off, said}, is_off};
 }
 

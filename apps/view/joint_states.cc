@@ -1,6 +1,6 @@
 #include "apps/view/joint_states.h"
 
-#include "apps/formats/ros_messages.h"
+#include "apps/formats/ros_topics.h"
 #include "apps/formats/wire_reader.h"
 
 namespace jaywalk::view {

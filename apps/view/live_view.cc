@@ -8,7 +8,7 @@
 #include <thread>
 #include <vector>
 
-#include "apps/formats/ros_messages.h"
+#include "apps/formats/ros_topics.h"
 #include "apps/view/joint_states.h"
 
 namespace jaywalk::view {

@@ -18,7 +18,7 @@
 #include "apps/view/view_orders.h"
 #include "apps/view/view_scene.h"
 #include "apps/view/view_server.h"
-#include "firmware/loop_runner.h"
+#include "firmware/control_loop.h"
 #include "firmware/safety/reasons.h"
 #include "hal/types/geometry.h"
 

@@ -1,6 +1,5 @@
 #include "apps/why/recorded_run.h"
 
-#include <cstdio>
 #include <utility>
 
 #include "apps/rivals/paper_mode.h"
@@ -25,12 +24,10 @@ std::vector<std::filesystem::path> recordings_of(const std::filesystem::path& ru
 
 std::string said_of(int part, const TickRecord& first) {
   const Pose2& at = first.pose.map_from_robot;
-  char text[240];
-  std::snprintf(text, sizeof text,
-                "begins with part %d of its run, at %.2f s: lived through as a new run from %.2f, %.2f, heading %.2f, "
-                "with nothing mapped, followed, planned or latched before",
-                part, to_seconds(first.now), at.x, at.y, at.heading);
-  return without_minus_zero(text);
+  return formatted(
+      "begins with part %d of its run, at %.2f s: lived through as a new run from %.2f, %.2f, heading %.2f, "
+      "with nothing mapped, followed, planned or latched before",
+      part, to_seconds(first.now), at.x, at.y, at.heading);
 }
 
 std::unique_ptr<Planner> planner_for(ControlSetup setup) {
@@ -67,10 +64,6 @@ bool RecordedRun::lies_in(const std::filesystem::path& folder) const {
     if (std::filesystem::equivalent(place, folder, missing)) return true;
   }
   return std::filesystem::equivalent(this->folder(), folder, missing);
-}
-
-double RecordedRun::share_read() const {
-  return (static_cast<double>(opened_ - 1) + reader_->share_read()) / static_cast<double>(files_.size());
 }
 
 bool RecordedRun::step() {

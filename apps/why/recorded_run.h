@@ -38,7 +38,9 @@ class RecordedRun {
   [[nodiscard]] bool is_in_parts() const { return files_.size() > 1; }
   /// It is lived through as a new run.
   [[nodiscard]] bool begins_anew() const { return setup_.part > 1; }
-  [[nodiscard]] double share_read() const;
+  [[nodiscard]] double share_read() const {
+    return (static_cast<double>(opened_ - 1) + reader_->share_read()) / static_cast<double>(files_.size());
+  }
   /// RecordingReader's.
   [[nodiscard]] std::uint64_t lost_before() const { return reader_->lost_before(); }
   /// What a person should know of it, a line each: that it begins anew, where it was cut, and in how many ticks this

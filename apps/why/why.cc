@@ -15,6 +15,12 @@ namespace {
 
 constexpr float kWorthSaying_s = 0.05F;
 
+/// Tracked bodies, and the robot's own outline.
+struct BodiesAbout {
+  std::span<const Track> tracks;
+  Footprint footprint;
+};
+
 /// The terms beside the time, in the order of the table's columns.
 std::array<std::pair<const char*, float>, 7> terms_of(const motion::Cost& cost) {
   return {{{"getting in somebody's way", cost.conflict},
@@ -112,32 +118,8 @@ std::pair<const char*, const char*> names_of(motion::Proposal proposal) {
   return {"unknown", "do something unknown"};
 }
 
-}  // namespace
-
-DecisionScene scene_of(const motion::GoalRollouts& motion, const std::vector<motion::Alternative>& alternatives) {
-  constexpr int kEvery = 5;  // steps: a second
-  const motion::Decision& decision = motion.decision();
-  DecisionScene scene;
-  std::set<motion::Proposal> told{decision.trajectory.proposal};
-  for (const motion::Alternative& a : alternatives) {
-    const motion::Proposal kind = a.trajectory.proposal;
-    if (!told.insert(kind).second) continue;
-    std::string name = names_of(kind).first;
-    std::replace(name.begin(), name.end(), '_', ' ');
-    scene.ways.push_back({std::move(name), way_of(decision.start, a.driven), a.cost.total() - decision.cost.total()});
-  }
-  scene.chosen = way_of(decision.start, decision.driven);
-  for (std::size_t m = 0; m < motion.futures().movers(); ++m) {
-    for (int step = 0; step < motion::kFutureSteps; step += kEvery) {
-      const motion::MoverAt& at = motion.futures().at(step, m);
-      const double share = static_cast<double>(step) / (motion::kFutureSteps - 1);
-      for (int k = 0; k < motion::kFutures; ++k)
-        scene.futures.push_back({{static_cast<double>(at.x[k]), static_cast<double>(at.y[k])}, share});
-    }
-  }
-  return scene;
-}
-
+/// "to follow the way, as decided 1.2 s before: 25.8 s to the goal, plus 0.4 s for being close to people (body 7 could
+/// come within 0.3 m in 1.8 s)".
 std::string chosen_in_words(const motion::GoalRollouts& motion, const Resolve& resolve, const BodiesAbout& around) {
   const motion::Decision& decision = motion.decision();
   const double since_s = to_seconds(decision.at - resolve.at);
@@ -146,6 +128,7 @@ std::string chosen_in_words(const motion::GoalRollouts& motion, const Resolve& r
          in_words(decision.cost, decision.driven, motion.futures(), around);
 }
 
+/// "to wait and then go would have cost 0.3 s more: ...": the cheapest of another kind; empty where there is none.
 std::string next_best_in_words(const motion::GoalRollouts& motion, const Resolve& resolve,
                                const std::vector<motion::Alternative>& alternatives, const BodiesAbout& around) {
   const auto next = std::ranges::find_if(alternatives, [&](const motion::Alternative& a) {
@@ -160,26 +143,13 @@ std::string next_best_in_words(const motion::GoalRollouts& motion, const Resolve
          in_words(next->cost, next->driven, motion.futures(), around);
 }
 
-void write_alternatives(const std::vector<motion::Alternative>& alternatives, const std::string& file) {
-  CsvFile table(file,
-                "attempt,perturbed,total_s,time_s,conflict_s,touch_s,stop_zone_s,clearance_s,unseen_s,nearness_s,"
-                "comfort_s,end_x_m,end_y_m,end_heading_rad,end_v_mps,first_v_mps,first_w_radps");
-  const auto number = [&table](float value) { table.number(static_cast<double>(value)); };
-  for (const motion::Alternative& a : alternatives) {
-    table.text(names_of(a.trajectory.proposal).first).count(a.trajectory.perturbed ? 1 : 0);
-    number(a.cost.total());
-    number(a.cost.time);
-    for (const auto& term : terms_of(a.cost)) number(term.second);
-    const motion::RobotState& end = a.driven.back();
-    for (const float value : {end.x, end.y, end.heading, end.v}) number(value);
-    number(a.trajectory.commands.front().v);
-    number(a.trajectory.commands.front().w);
-    table.end_row();
-  }
-  (void)table.close();
+/// "stop_zone" as a person says it: "something stands in the way". Every reason of the set, joined by "; ".
+std::string in_words(Reason reasons) {
+  std::string words;
+  for (const ReasonRow& row : kReasons)
+    if (has(reasons, row.reason)) words += (words.empty() ? "" : "; ") + std::string(row.says);
+  return words;
 }
-
-namespace {
 
 constexpr double kDegPerRad = 180.0 / kPi;
 constexpr double kLookAhead_s = 5.0;
@@ -293,11 +263,47 @@ std::string otherwise(const TickRecord& t, const ControlLoop& loop, const RobotM
 
 }  // namespace
 
-std::string in_words(Reason reasons) {
-  std::string words;
-  for (const ReasonRow& row : kReasons)
-    if (has(reasons, row.reason)) words += (words.empty() ? "" : "; ") + std::string(row.says);
-  return words;
+DecisionScene scene_of(const motion::GoalRollouts& motion, const std::vector<motion::Alternative>& alternatives) {
+  constexpr int kEvery = 5;  // steps: a second
+  const motion::Decision& decision = motion.decision();
+  DecisionScene scene;
+  std::set<motion::Proposal> told{decision.trajectory.proposal};
+  for (const motion::Alternative& a : alternatives) {
+    const motion::Proposal kind = a.trajectory.proposal;
+    if (!told.insert(kind).second) continue;
+    std::string name = names_of(kind).first;
+    std::replace(name.begin(), name.end(), '_', ' ');
+    scene.ways.push_back({std::move(name), way_of(decision.start, a.driven), a.cost.total() - decision.cost.total()});
+  }
+  scene.chosen = way_of(decision.start, decision.driven);
+  for (std::size_t m = 0; m < motion.futures().movers(); ++m) {
+    for (int step = 0; step < motion::kFutureSteps; step += kEvery) {
+      const motion::MoverAt& at = motion.futures().at(step, m);
+      const double share = static_cast<double>(step) / (motion::kFutureSteps - 1);
+      for (int k = 0; k < motion::kFutures; ++k)
+        scene.futures.push_back({{static_cast<double>(at.x[k]), static_cast<double>(at.y[k])}, share});
+    }
+  }
+  return scene;
+}
+
+void write_alternatives(const std::vector<motion::Alternative>& alternatives, const std::string& file) {
+  CsvFile table(file,
+                "attempt,perturbed,total_s,time_s,conflict_s,touch_s,stop_zone_s,clearance_s,unseen_s,nearness_s,"
+                "comfort_s,end_x_m,end_y_m,end_heading_rad,end_v_mps,first_v_mps,first_w_radps");
+  const auto number = [&table](float value) { table.number(static_cast<double>(value)); };
+  for (const motion::Alternative& a : alternatives) {
+    table.text(names_of(a.trajectory.proposal).first).count(a.trajectory.perturbed ? 1 : 0);
+    number(a.cost.total());
+    number(a.cost.time);
+    for (const auto& term : terms_of(a.cost)) number(term.second);
+    const motion::RobotState& end = a.driven.back();
+    for (const float value : {end.x, end.y, end.heading, end.v}) number(value);
+    number(a.trajectory.commands.front().v);
+    number(a.trajectory.commands.front().w);
+    table.end_row();
+  }
+  (void)table.close();
 }
 
 std::string why_words(const TickRecord& tick, const ControlLoop& loop, const RobotModel& model,

@@ -1,6 +1,5 @@
 #pragma once
 // `jaywalk why`: one moment of a recording in words, tables and a picture.
-#include <filesystem>
 #include <span>
 #include <string>
 #include <vector>
@@ -24,21 +23,6 @@ struct Resolve {
   }
 };
 
-/// Tracked bodies, and the robot's own outline.
-struct BodiesAbout {
-  std::span<const Track> tracks;
-  Footprint footprint;
-};
-
-/// "to follow the way, as decided 1.2 s before: 25.8 s to the goal, plus 0.4 s for being close to people (body 7 could
-/// come within 0.3 m in 1.8 s)".
-[[nodiscard]] std::string chosen_in_words(const motion::GoalRollouts& motion, const Resolve& resolve,
-                                          const BodiesAbout& around);
-/// "to wait and then go would have cost 0.3 s more: ...": the cheapest of another kind; empty where there is none.
-[[nodiscard]] std::string next_best_in_words(const motion::GoalRollouts& motion, const Resolve& resolve,
-                                             const std::vector<motion::Alternative>& alternatives,
-                                             const BodiesAbout& around);
-
 /// The decision as a picture shows it. Throws nothing but std::bad_alloc.
 [[nodiscard]] DecisionScene scene_of(const motion::GoalRollouts& motion,
                                      const std::vector<motion::Alternative>& alternatives);
@@ -57,8 +41,5 @@ struct Weighed {
 /// would have come of driving on.
 [[nodiscard]] std::string why_words(const TickRecord& tick, const ControlLoop& loop, const RobotModel& model,
                                     const Weighed& weighed);
-
-/// "stop_zone" as a person says it: "something stands in the way". Every reason of the set, joined by "; ".
-[[nodiscard]] std::string in_words(Reason reasons);
 
 }  // namespace jaywalk

@@ -6,10 +6,10 @@
 
 #include "apps/jaywalk/commands.h"
 #include "apps/jaywalk/progress.h"
-#include "apps/report/picture/picture.h"
 #include "apps/report/picture/scene.h"
 #include "apps/why/recorded_run.h"
 #include "apps/why/why.h"
+#include "hal/shown_text.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk {
@@ -26,8 +26,7 @@ WhyOptions why_options;
 constexpr double kShown_m = 8.0;  // to each side of the robot
 
 [[noreturn]] void refuse_time(const RelivedRun& run, Time first, Time last) {
-  char span[64];
-  std::snprintf(span, sizeof span, "give a time from %.2f to %.2f s", to_seconds(first), to_seconds(last));
+  const std::string span = formatted("give a time from %.2f to %.2f s", to_seconds(first), to_seconds(last));
   throw StartupError(run.file().string() + ": has nothing of that time", span);
 }
 
@@ -57,8 +56,7 @@ struct Past {
 
 void tell(Progress& progress, Time first, Time now, double until_s) {
   if (!progress.is_due()) return;
-  char words[64];
-  std::snprintf(words, sizeof words, "%.0f of %.0f s", to_seconds(now), until_s);
+  const std::string words = formatted("%.0f of %.0f s", to_seconds(now), until_s);
   progress.show(to_seconds(now - first) / (until_s - to_seconds(first)), words);
 }
 
@@ -92,8 +90,7 @@ PictureScene scene_of(const RelivedRun& run, const Past& past, const Weighed& we
   const TickRecord& t = run.last();
   const ControlLoop& loop = run.loop();
   const auto tracks = loop.tracker().tracks();
-  char title[64];
-  std::snprintf(title, sizeof title, "why, at %.2f s", to_seconds(t.now));
+  const std::string title = formatted("why, at %.2f s", to_seconds(t.now));
   BusiestMoment moment;
   moment.consider(loop.plan(), run.planner(), {tracks.begin(), tracks.size()}, t.pose.map_from_robot);
   PictureScene scene;

@@ -1,18 +1,56 @@
 #pragma once
 // An emulated CUDA device on one thread of the CPU. Kernels are the project's own, compiled by the host's compiler;
 // what is launched runs when something waits for it, so that a wait that is missing shows. cuda/README.md.
+#include <cstdint>
 #include <deque>
+#include <map>
 #include <mutex>
 
 #include "cuda/emulated/block.h"
 #include "cuda/emulated/include/cuda_runtime.h"
-#include "cuda/emulated/memory.h"
 
 namespace jaywalk::emulated {
 
+// Memories of the device. Each allocation is poisoned and ends at a page that nothing may touch. Where memory is
+// guarded, the host's access to what is not its own is a segmentation fault. (To open and close memory takes longer
+// than small kernels do, on virtual machines most of all.)
+
+enum class Where : std::uint8_t {
+  kDevice,  ///< the device's alone
+  kPinned,  ///< of the host; the device's too
+};
+
+class Memory {
+ public:
+  /// Releases all memory. From now on there are `room` bytes; a block that is taken is filled with `poison`.
+  void begin_anew(std::size_t room, std::uint8_t poison, bool guarded);
+  /// Leaves no room for further blocks.
+  void fill() { room_ = 0; }
+  /// Null where there is no room.
+  [[nodiscard]] void* take(std::size_t bytes, Where where);
+  /// `block`: what take() returned, or null.
+  void release(void* block);
+  /// `works`: the device does, and the host waits.
+  void protect(bool works);
+
+ private:
+  struct Block {
+    char* pages;
+    std::size_t bytes, used;  ///< asked for; in pages, without the last
+    Where where;
+  };
+  void protect(const Block& block) const;
+
+  std::map<void*, Block> blocks_;
+  std::size_t room_ = 0;
+  std::uint8_t poison_ = 0;
+  bool guarded_ = false;
+  bool works_ = false;
+};
+
 struct Properties {
   int devices = 1;       ///< all alike; 0: none is there
-  bool guarded = false;  ///< the host cannot touch what is not its own (memory.h)
+  bool guarded = false;  ///< the host cannot touch what is not its own (Memory)
   std::size_t bytes = std::size_t{4} << 30;
   int not_ready = 0;       ///< queries of an event that answer "not ready" before its work runs
   std::uint64_t seed = 1;  ///< of the order in which threads run

@@ -1,7 +1,7 @@
-#include "drivers/arcos/arcos.h"
-
 #include <cstdlib>
 #include <utility>
+
+#include "drivers/arcos/arcos_base.h"
 
 namespace jaywalk::arcos {
 namespace {

@@ -1,8 +1,14 @@
 #include "drivers/can/can_bus.h"
 
 #include <cstdio>
+#include <utility>
 
 namespace jaywalk {
+namespace {
+
+constexpr Duration kReopening = std::chrono::milliseconds(500);
+
+}  // namespace
 
 std::string to_text(const CanFrame& frame) {
   std::array<char, 32> text{};
@@ -33,6 +39,36 @@ std::string_view name(SendResult result) noexcept {
     case SendResult::kSystemError: return "refused by the system";
   }
   return "unknown result";
+}
+
+SendResult ByteBus::send(const CanFrame& frame) noexcept {
+  const std::scoped_lock held(turn_);
+  link_->write(frame.payload());
+  return link_->state() == wire::Link::State::kOpen ? SendResult::kQueued : SendResult::kOffBus;
+}
+
+bool ByteBus::receive(ReceivedFrame& received) noexcept {
+  if (waiting_.empty()) refill();
+  if (waiting_.empty()) return false;
+  received = {first_frame(waiting_), read_};
+  return true;
+}
+
+void ByteBus::refill() noexcept {
+  const std::scoped_lock held(turn_);
+  const Time now = clock_.now();
+  if (link_->state() == wire::Link::State::kClosed && age(opened_, now) >= kReopening) {
+    link_->open();
+    opened_ = now;
+  }
+  if (link_->state() != wire::Link::State::kOpen) return;
+  waiting_ = link_->read(room_);
+  read_ = now;
+}
+
+CanHealth ByteBus::health() const noexcept {
+  const std::scoped_lock held(turn_);
+  return {.state = link_->state() == wire::Link::State::kOpen ? CanState::kActive : CanState::kDown};
 }
 
 }  // namespace jaywalk

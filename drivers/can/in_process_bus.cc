@@ -4,10 +4,6 @@
 
 namespace jaywalk {
 
-InProcessBus::InProcessBus(Clock& clock, std::uint64_t seed) noexcept : clock_(clock), random_(seed) {
-  for (Port& port : ports_) port.bus_ = this;
-}
-
 // SplitMix64 (Steele, Lea and Flood, 2014): one addition and a mixing of the state.
 bool InProcessBus::draw_loss() noexcept {
   std::uint64_t mixed = random_ += 0x9E3779B97F4A7C15;
@@ -23,10 +19,6 @@ void InProcessBus::deliver(const CanFrame& frame, const Port& sender) noexcept {
     if (&port == &sender || !port.on_bus()) continue;
     if (!draw_loss()) port.enqueue({frame, last_arrival_});
   }
-}
-
-bool InProcessBus::Port::on_bus() const noexcept {
-  return health_.state != CanState::kBusOff && health_.state != CanState::kDown;
 }
 
 void InProcessBus::Port::set_state(CanState state) noexcept {

@@ -24,7 +24,9 @@ class InProcessBus {
   static constexpr std::size_t kPorts = 8, kQueue = 128;
 
   /// The clock outlives the bus; its time decides when delayed frames arrive.
-  InProcessBus(Clock& clock, std::uint64_t seed) noexcept;
+  InProcessBus(Clock& clock, std::uint64_t seed) noexcept : clock_(clock), random_(seed) {
+    for (Port& port : ports_) port.bus_ = this;
+  }
   InProcessBus(const InProcessBus&) = delete;
   InProcessBus& operator=(const InProcessBus&) = delete;
 
@@ -41,7 +43,9 @@ class InProcessBus {
 
    private:
     friend class InProcessBus;
-    [[nodiscard]] bool on_bus() const noexcept;
+    [[nodiscard]] bool on_bus() const noexcept {
+      return health_.state != CanState::kBusOff && health_.state != CanState::kDown;
+    }
     void enqueue(const ReceivedFrame& frame) noexcept;
 
     InProcessBus* bus_ = nullptr;

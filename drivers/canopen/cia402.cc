@@ -16,6 +16,37 @@ std::uint8_t node_of(const CanFrame& frame, std::uint32_t base) noexcept {
   return static_cast<std::uint8_t>(frame.id - base);
 }
 
+constexpr std::uint16_t kDisableVoltage = 0x0000, kQuickStop = 0x0002, kShutdown = 0x0006, kSwitchOn = 0x0007,
+                        kEnableOperation = 0x000F, kFaultReset = 0x0080;
+
+struct Pattern {
+  std::uint16_t mask;
+  std::uint16_t value;
+  DriveState state;
+};
+
+// Bits 0 to 3 and 6 always count; bit 5 (0: quick stop) only where the standard's table gives it.
+constexpr std::array kPatterns{
+    Pattern{0x4F, 0x00, DriveState::kNotReady},
+    Pattern{0x4F, 0x40, DriveState::kSwitchOnDisabled},
+    Pattern{0x6F, 0x21, DriveState::kReadyToSwitchOn},
+    Pattern{0x6F, 0x23, DriveState::kSwitchedOn},
+    Pattern{0x6F, 0x27, DriveState::kOperationEnabled},
+    Pattern{0x6F, 0x07, DriveState::kQuickStopActive},
+    Pattern{0x4F, 0x0F, DriveState::kFaultReactionActive},
+    Pattern{0x4F, 0x08, DriveState::kFault},
+};
+
+std::uint16_t step_to_enabled(DriveState state) noexcept {
+  switch (state) {
+    case DriveState::kSwitchOnDisabled: return kShutdown;
+    case DriveState::kReadyToSwitchOn: return kSwitchOn;
+    case DriveState::kSwitchedOn:
+    case DriveState::kOperationEnabled: return kEnableOperation;
+    default: return kDisableVoltage;
+  }
+}
+
 }  // namespace
 
 std::size_t length_of(const PdoMapping& mapping) noexcept {
@@ -96,22 +127,10 @@ std::optional<Heartbeat> decode_heartbeat(const CanFrame& frame) noexcept {
   return std::nullopt;
 }
 
-CanFrame emergency_frame(const Emergency& emergency) noexcept {
-  CanFrame frame;
-  frame.id = kEmergencyBase + emergency.node;
-  frame.size = 8;
-  wire::put_little_endian(emergency.error_code, frame.bytes);
-  frame.bytes[2] = emergency.error_register;
-  std::copy(emergency.maker_bytes.begin(), emergency.maker_bytes.end(), frame.bytes.begin() + 3);
-  return frame;
-}
-
 std::optional<Emergency> decode_emergency(const CanFrame& frame) noexcept {
   const std::uint8_t node = node_of(frame, kEmergencyBase);
   if (node == 0 || frame.size != 8) return std::nullopt;
-  Emergency emergency{node, wire::little_endian<std::uint16_t>(frame.payload()), frame.bytes[2], {}};
-  std::copy(frame.bytes.begin() + 3, frame.bytes.end(), emergency.maker_bytes.begin());
-  return emergency;
+  return Emergency{node, wire::little_endian<std::uint16_t>(frame.payload())};
 }
 
 std::string_view emergency_class(std::uint16_t error_code) noexcept {
@@ -130,41 +149,6 @@ std::string_view emergency_class(std::uint16_t error_code) noexcept {
     default: return "reserved";
   }
 }
-
-namespace {
-
-constexpr std::uint16_t kDisableVoltage = 0x0000, kQuickStop = 0x0002, kShutdown = 0x0006, kSwitchOn = 0x0007,
-                        kEnableOperation = 0x000F, kFaultReset = 0x0080;
-
-struct Pattern {
-  std::uint16_t mask;
-  std::uint16_t value;
-  DriveState state;
-};
-
-// Bits 0 to 3 and 6 always count; bit 5 (0: quick stop) only where the standard's table gives it.
-constexpr std::array kPatterns{
-    Pattern{0x4F, 0x00, DriveState::kNotReady},
-    Pattern{0x4F, 0x40, DriveState::kSwitchOnDisabled},
-    Pattern{0x6F, 0x21, DriveState::kReadyToSwitchOn},
-    Pattern{0x6F, 0x23, DriveState::kSwitchedOn},
-    Pattern{0x6F, 0x27, DriveState::kOperationEnabled},
-    Pattern{0x6F, 0x07, DriveState::kQuickStopActive},
-    Pattern{0x4F, 0x0F, DriveState::kFaultReactionActive},
-    Pattern{0x4F, 0x08, DriveState::kFault},
-};
-
-std::uint16_t step_to_enabled(DriveState state) noexcept {
-  switch (state) {
-    case DriveState::kSwitchOnDisabled: return kShutdown;
-    case DriveState::kReadyToSwitchOn: return kSwitchOn;
-    case DriveState::kSwitchedOn:
-    case DriveState::kOperationEnabled: return kEnableOperation;
-    default: return kDisableVoltage;
-  }
-}
-
-}  // namespace
 
 DriveState state_of(std::uint16_t statusword) noexcept {
   for (const Pattern& pattern : kPatterns)

@@ -101,12 +101,9 @@ struct Heartbeat {
 
 struct Emergency {
   std::uint8_t node = 0;
-  std::uint16_t error_code = 0;               ///< 0: the device reports that all errors are gone
-  std::uint8_t error_register = 0;            ///< object 1001h
-  std::array<std::uint8_t, 5> maker_bytes{};  ///< the maker's own
+  std::uint16_t error_code = 0;  ///< 0: the device reports that all errors are gone
 };
 
-[[nodiscard]] CanFrame emergency_frame(const Emergency& emergency) noexcept;
 /// Nothing where `frame` is no emergency message (a SYNC has the same function code and node 0).
 [[nodiscard]] std::optional<Emergency> decode_emergency(const CanFrame& frame) noexcept;
 /// The class of an emergency's error code (CiA 301): "current", "voltage", ...

@@ -203,10 +203,6 @@ void CanopenDriveBase::watch() noexcept {
   }
 }
 
-void CanopenDriveBase::note(const DriveFault& fault) noexcept {
-  if (!fault_.is_told()) fault_ = fault;
-}
-
 // The first trouble is the one worth knowing: the others follow from it. A proof that is under way is over.
 void CanopenDriveBase::latch(DriveTrouble trouble) noexcept {
   if (trouble_ == DriveTrouble::kNone) trouble_ = trouble;
@@ -218,10 +214,6 @@ void CanopenDriveBase::reset() noexcept {
   if (!is_proved()) return begin_proof();
   awaits_zero_ = true;
   ladder_.reset();
-}
-
-bool CanopenDriveBase::follow_speeds() const noexcept {
-  return is_enabled() && axes_[0].follows_speeds() && axes_[1].follows_speeds();
 }
 
 bool CanopenDriveBase::is_enabled() const noexcept {
@@ -277,10 +269,6 @@ void CanopenDriveBase::send_targets(DriveGoal goal, double left_radps, double ri
   send(axes_[1].target(goal, right_radps));
   send(sync_frame());
   for (WheelAxis& axis : axes_) axis.note_sync(now());
-}
-
-void CanopenDriveBase::send(const CanFrame& frame) noexcept {
-  if (bus_.send(frame) != SendResult::kQueued) latch(DriveTrouble::kBusRefused);
 }
 
 }  // namespace jaywalk::canopen

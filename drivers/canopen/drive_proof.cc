@@ -3,11 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
-#include <cstdio>
-#include <cstdlib>
 #include <initializer_list>
 
-#include "drivers/canopen/cia402.h"
+#include "hal/shown_text.h"
 
 namespace jaywalk::canopen {
 namespace {
@@ -17,6 +15,45 @@ constexpr std::uint32_t kNoRemoteFrames = 1U << 30U;  ///< bit of a COB-ID (CiA 
 /// The low bytes of `value` that the object has.
 std::uint32_t cut(std::uint32_t value, std::uint8_t bytes) noexcept {
   return bytes >= 4 ? value : value & ((1U << (8U * bytes)) - 1U);
+}
+
+std::string hex(std::uint32_t number, int digits) { return formatted("%0*Xh", digits, static_cast<unsigned>(number)); }
+
+std::string name_of(const ProofItem& item) {
+  const ObjectAddress& address = item.wanted.address;
+  return hex(address.index, 4) + ":" + std::to_string(address.sub) + " " + item.what_for;
+}
+
+/// What was wanted of it.
+std::string demand_of(const ProofItem& item) {
+  const std::string value = hex(cut(item.wanted.value, item.wanted.bytes), 2 * item.wanted.bytes);
+  if (item.demand == ProofDemand::kKnown) return "";
+  return (item.demand == ProofDemand::kAtMost ? ": at most " : ": wanted ") + value;
+}
+
+constexpr std::uint8_t kAtEverySync = 1;
+constexpr unsigned kIsMapping = 0x200;  ///< sets 1600h and 1A00h apart from 1400h and 1800h
+constexpr std::uint32_t kHasProfileVelocity = 1U << 2U;
+
+// Option codes of CiA 402: 6007h 3 is quick stop; 605Ah 2 brakes by 6085h, then switches off; 605Bh, 605Ch and 605Dh 1
+// brake by 6084h; 605Eh 2 brakes by 6085h.
+constexpr std::uint32_t kLostControllerQuickStops = 3, kQuickStopThenOff = 2, kBrakeThenOff = 1, kBrake = 1,
+                        kFaultQuickStops = 2;
+
+PdoSetup setup(std::uint16_t communication, std::uint16_t mapping, std::uint32_t id,
+               std::initializer_list<MappedObject> objects) noexcept {
+  PdoSetup made{communication, mapping, id, kAtEverySync, {}};
+  for (const MappedObject& object : objects) {
+    const bool fits = made.mapping.push_back(object);
+    assert(fits);
+    static_cast<void>(fits);
+  }
+  return made;
+}
+
+/// It answers well, and otherwise than the one of the first proof.
+bool is_another(const ProofLine& failed) noexcept {
+  return failed.verdict == ProofVerdict::kProved || failed.verdict == ProofVerdict::kLacks;
 }
 
 }  // namespace
@@ -108,28 +145,6 @@ void ArmingProof::conclude(ProofVerdict verdict, std::uint32_t said) noexcept {
   read_only_ = false;
 }
 
-namespace {
-
-std::string hex(std::uint32_t number, int digits) {
-  std::array<char, 16> text{};
-  std::snprintf(text.data(), text.size(), "%0*Xh", digits, static_cast<unsigned>(number));
-  return text.data();
-}
-
-std::string name_of(const ProofItem& item) {
-  const ObjectAddress& address = item.wanted.address;
-  return hex(address.index, 4) + ":" + std::to_string(address.sub) + " " + item.what_for;
-}
-
-/// What was wanted of it.
-std::string demand_of(const ProofItem& item) {
-  const std::string value = hex(cut(item.wanted.value, item.wanted.bytes), 2 * item.wanted.bytes);
-  if (item.demand == ProofDemand::kKnown) return "";
-  return (item.demand == ProofDemand::kAtMost ? ": at most " : ": wanted ") + value;
-}
-
-}  // namespace
-
 std::string describe(const ProofLine& line) {
   const std::string what = name_of(line.item) + demand_of(line.item);
   const std::string said = hex(line.said, 2 * line.item.wanted.bytes);
@@ -144,35 +159,6 @@ std::string describe(const ProofLine& line) {
   }
   return what + ", not asked yet";
 }
-
-namespace {
-
-constexpr std::uint8_t kAtEverySync = 1;
-constexpr unsigned kIsMapping = 0x200;  ///< sets 1600h and 1A00h apart from 1400h and 1800h
-constexpr std::uint32_t kHasProfileVelocity = 1U << 2U;
-
-// Option codes of CiA 402: 6007h 3 is quick stop; 605Ah 2 brakes by 6085h, then switches off; 605Bh, 605Ch and 605Dh 1
-// brake by 6084h; 605Eh 2 brakes by 6085h.
-constexpr std::uint32_t kLostControllerQuickStops = 3, kQuickStopThenOff = 2, kBrakeThenOff = 1, kBrake = 1,
-                        kFaultQuickStops = 2;
-
-PdoSetup setup(std::uint16_t communication, std::uint16_t mapping, std::uint32_t id,
-               std::initializer_list<MappedObject> objects) noexcept {
-  PdoSetup made{communication, mapping, id, kAtEverySync, {}};
-  for (const MappedObject& object : objects) {
-    const bool fits = made.mapping.push_back(object);
-    assert(fits);
-    static_cast<void>(fits);
-  }
-  return made;
-}
-
-/// It answers well, and otherwise than the one of the first proof.
-bool is_another(const ProofLine& failed) noexcept {
-  return failed.verdict == ProofVerdict::kProved || failed.verdict == ProofVerdict::kLacks;
-}
-
-}  // namespace
 
 PdoSetup command_pdo(std::uint8_t node) noexcept {
   return setup(0x1400, 0x1600, 0x200U + node, {{kControlword, 2}, {kTargetVelocity, 4}});

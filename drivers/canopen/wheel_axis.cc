@@ -1,8 +1,7 @@
-#include "drivers/canopen/wheel_axis.h"
-
 #include <algorithm>
 #include <cassert>
 
+#include "drivers/canopen/drive_base.h"
 #include "drivers/canopen/drive_proof.h"
 
 namespace jaywalk::canopen {

@@ -1,7 +1,7 @@
-#include "drivers/laser/cola_stream.h"
-
 #include <algorithm>
 #include <array>
+
+#include "drivers/laser/sick.h"
 
 namespace jaywalk::sick {
 namespace {
@@ -69,7 +69,6 @@ std::optional<wire::Bytes> ColaStream::next_b() noexcept {
     if (waiting.size() < kHeaderB + length + 1) return std::nullopt;
     const wire::Bytes body = waiting.subspan(kHeaderB, length);
     if (xor_of(body) != waiting[kHeaderB + length]) {
-      ++bad_checksums_;
       skip(1);
       continue;
     }

@@ -1,12 +1,11 @@
 #include "drivers/laser/scip.h"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cstdio>
 #include <limits>
 #include <span>
 
+#include "hal/shown_text.h"
 #include "hal/types/trig.h"
 
 namespace jaywalk::scip {
@@ -32,13 +31,6 @@ std::string_view take_line(std::string_view& rest) noexcept {
   return line;
 }
 
-std::optional<std::uint32_t> decimal(std::string_view digits) noexcept {
-  std::uint32_t value = 0;
-  const auto parsed = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-  if (digits.empty() || parsed.ec != std::errc{} || parsed.ptr != digits.data() + digits.size()) return std::nullopt;
-  return value;
-}
-
 bool is_scan_command(std::string_view echo) noexcept {
   const std::string_view command = echo.substr(0, 2);
   return command == "MD" || command == "MS" || command == "GD" || command == "GS";
@@ -46,9 +38,9 @@ bool is_scan_command(std::string_view echo) noexcept {
 
 std::optional<Question> parse_question(std::string_view echo, const ScannerModel& model) noexcept {
   if (echo.size() < 12) return std::nullopt;
-  const auto first = decimal(echo.substr(2, 4));
-  const auto last = decimal(echo.substr(6, 4));
-  const auto cluster = decimal(echo.substr(10, 2));
+  const auto first = number_in<std::uint32_t>(echo.substr(2, 4));
+  const auto last = number_in<std::uint32_t>(echo.substr(6, 4));
+  const auto cluster = number_in<std::uint32_t>(echo.substr(10, 2));
   if (!first || !last || !cluster || *last < *first || *last > model.last_step) return std::nullopt;
   return Question{*first, *last, std::max(*cluster, 1U), echo[1] == 'D' ? std::size_t{3} : std::size_t{2}};
 }
@@ -130,7 +122,7 @@ Decoding take_value(std::string_view line, std::span<Told> wanted) noexcept {
   const std::size_t colon = text.find(':');
   for (Told& told : wanted) {
     if (text.substr(0, colon) != told.name) continue;
-    told.value = decimal(text.substr(colon + 1));
+    told.value = number_in<std::uint32_t>(text.substr(colon + 1));
     if (!told.value || *told.value < told.least || *told.value > told.most) return Decoding::kBadField;
   }
   return Decoding::kScan;
@@ -147,6 +139,15 @@ void place(const Question& question, const ScannerModel& model, Time arrival, La
   scan.stamp = arrival - scan.sweep;
   scan.range_min_m = model.range_min_m;
   scan.range_max_m = model.range_max_m;
+}
+
+/// More scans than this do not go missing on a connection that lives: the scanner began to count anew.
+constexpr std::uint32_t kMostLost = 1000;
+
+/// An answer's status without its checksum: what stands between the first and the second line's end.
+std::string_view status_of(std::string_view answer) noexcept {
+  const std::size_t begin = std::min(answer.find('\n'), answer.size() - 1) + 1;
+  return answer.substr(begin, 2);
 }
 
 }  // namespace
@@ -235,19 +236,6 @@ Decoding decode_scan(std::string_view answer, const ScannerModel& model, Time ar
   place(*question, model, arrival, scan);
   return Decoding::kScan;
 }
-
-namespace {
-
-/// More scans than this do not go missing on a connection that lives: the scanner began to count anew.
-constexpr std::uint32_t kMostLost = 1000;
-
-/// An answer's status without its checksum: what stands between the first and the second line's end.
-std::string_view status_of(std::string_view answer) noexcept {
-  const std::size_t begin = std::min(answer.find('\n'), answer.size() - 1) + 1;
-  return answer.substr(begin, 2);
-}
-
-}  // namespace
 
 void ScipProtocol::begin() noexcept {
   step_ = Step::kDialect;

@@ -256,8 +256,6 @@ Heard SickProtocol::on_answer(std::string_view body) noexcept {
   return conclude(taken) ? Heard::kAnswer : Heard::kRefused;
 }
 
-bool SickProtocol::go_on_unanswered() noexcept { return conclude(false); }
-
 bool SickProtocol::conclude(bool taken) noexcept {
   const bool must = at_ + 1 == steps_.size();
   if (!taken && must) return false;

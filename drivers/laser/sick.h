@@ -1,13 +1,62 @@
 #pragma once
 // SICK TiM5xx and LMS1xx: scan telegrams, and what makes them come.
 #include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <string_view>
 
-#include "drivers/laser/cola_stream.h"
 #include "drivers/laser/scanner_protocol.h"
+#include "drivers/wire/byte_reader.h"
+#include "hal/types/fixed_vector.h"
 #include "hal/types/laser_scan.h"
 
 namespace jaywalk::sick {
+
+[[nodiscard]] inline std::string_view text_of(wire::Bytes bytes) noexcept {
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+enum class Cola : std::uint8_t { kA, kB };
+[[nodiscard]] constexpr Cola other(Cola dialect) noexcept { return dialect == Cola::kA ? Cola::kB : Cola::kA; }
+
+/// Cuts a stream into telegrams; after garbage it goes on at the next beginning that holds.
+class ColaStream {
+ public:
+  /// Longest body that is believed: two channels of 2048 beams are 8.3 kB in CoLa B, some 12 to 20 kB in CoLa A.
+  static constexpr std::size_t kMaxBody = 24576;
+
+  explicit ColaStream(Cola dialect) noexcept : dialect_(dialect) {}
+
+  void append(wire::Bytes bytes) noexcept { queue_.append(bytes); }
+  /// Drops what waits, uncounted: another connection begins.
+  void begin(Cola dialect) noexcept {
+    dialect_ = dialect;
+    queue_.clear();
+    handed_out_ = 0;
+  }
+  /// The next whole telegram's body, without framing; nothing until more bytes came. Valid until the next call.
+  [[nodiscard]] std::optional<wire::Bytes> next() noexcept;
+
+  /// Bytes that belonged to no telegram.
+  [[nodiscard]] std::uint64_t skipped() const noexcept { return skipped_ + queue_.lost(); }
+
+ private:
+  [[nodiscard]] std::optional<wire::Bytes> next_a() noexcept;
+  [[nodiscard]] std::optional<wire::Bytes> next_b() noexcept;
+  void skip(std::size_t count) noexcept;
+
+  Cola dialect_;
+  wire::ByteQueue<2 * kMaxBody> queue_;
+  std::size_t handed_out_ = 0;  ///< bytes of the telegram that the caller still looks at
+  std::uint64_t skipped_ = 0;
+};
+
+using ColaCommand = FixedVector<std::uint8_t, 128>;
+
+/// A command with its framing, ready to send: "sEN LMDscandata 1" asks for scans in CoLa A. In CoLa B arguments are
+/// bytes, not digits. Empty where it does not fit.
+[[nodiscard]] ColaCommand framed(Cola dialect, std::string_view command) noexcept;
 
 /// What the telegram does not say about a TiM5xx or LMS1xx.
 struct ScannerModel {
@@ -46,7 +95,7 @@ class SickProtocol final : public ScannerProtocol {
   void begin() noexcept override;
   [[nodiscard]] wire::Bytes to_say(Time now) noexcept override;
   [[nodiscard]] bool awaits_answer() const noexcept override { return asked_; }
-  [[nodiscard]] bool go_on_unanswered() noexcept override;
+  [[nodiscard]] bool go_on_unanswered() noexcept override { return conclude(false); }
   void hear(wire::Bytes bytes) noexcept override { stream_.append(bytes); }
   [[nodiscard]] Heard next(Time arrival, LaserScan& scan) noexcept override;
   [[nodiscard]] ProtocolCounts counts() const noexcept override;

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+
+#include "hal/shown_text.h"
 
 namespace jaywalk {
 namespace {
@@ -109,14 +110,6 @@ void MotorPair::report_fault(DriveTrouble trouble, const DriveFault& fault) noex
   latch(trouble);
 }
 
-void MotorPair::note(const DriveFault& fault) noexcept {
-  if (!fault_.is_told() || fault_.kind == DriveFaultKind::kVescStill) fault_ = fault;
-}
-
-void MotorPair::withdraw(DriveFaultKind kind, std::uint8_t node) noexcept {
-  if (fault_.kind == kind && fault_.node == node) fault_ = {};
-}
-
 void MotorPair::reset() noexcept {
   if (!armed_ || proving_) return;  // a proof that is under way goes on
   trouble_ = DriveTrouble::kNone;
@@ -135,10 +128,6 @@ void MotorPair::begin_enabling() noexcept {
   awaits_zero_ = false;
   settled_ = clock_.now() + setup_.settling;
   for (std::size_t k = 0; k < axes_.size(); ++k) send_reset(k);
-}
-
-bool MotorPair::is_enabled() const noexcept {
-  return std::all_of(axes_.begin(), axes_.end(), [](const MotorAxis& a) { return a.obeys; });
 }
 
 MotorOrder MotorPair::order_now() const noexcept {
@@ -194,10 +183,6 @@ void MotorPair::disarm() noexcept {
   receive();
 }
 
-void MotorPair::send(const CanFrame& frame) noexcept {
-  if (bus_.send(frame) != SendResult::kQueued) latch(DriveTrouble::kBusRefused);
-}
-
 Duration ShownReports::shown_for() const noexcept {
   return std::max(kShownFor, duration_from_seconds(kReportsShown * times_.report_s));
 }
@@ -219,18 +204,13 @@ bool ShownReports::is_often_enough() const noexcept {
          longest_ <= duration_from_seconds(times_.oldest_report_s()) + tick_;
 }
 
-double ShownReports::per_second() const noexcept { return readings_ / to_seconds(shown_for()); }
-
 std::string ShownReports::remedy() const {
   const double report_s = to_seconds(shown_for()) / std::max(readings_, 1);
   const double late_s = std::max(to_seconds(longest_) - report_s, 0.0);
-  std::array<char, 200> text{};
-  std::snprintf(text.data(), text.size(),
-                report_s <= kLongestReport_s
-                    ? "write report_ms = %.0f and report_late_ms = %.0f in [drive], or have it published more often"
-                    : "have it published at least 4 times a second (now every %.0f ms, up to %.0f ms late)",
-                std::ceil(1e3 * report_s), 10.0 * std::ceil(100.0 * late_s));
-  return text.data();
+  return formatted(report_s <= kLongestReport_s
+                       ? "write report_ms = %.0f and report_late_ms = %.0f in [drive], or have it published more often"
+                       : "have it published at least 4 times a second (now every %.0f ms, up to %.0f ms late)",
+                   std::ceil(1e3 * report_s), 10.0 * std::ceil(100.0 * late_s));
 }
 
 }  // namespace jaywalk

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "drivers/can/can_bus.h"
-#include "drivers/stop_ladder.h"
 #include "drivers/wired_drive.h"
 #include "hal/types/errors.h"
 #include "hal/types/robot_model.h"
@@ -84,7 +83,9 @@ class MotorPair : public WiredDrive {
   [[nodiscard]] DriveTrouble trouble() const noexcept override { return trouble_; }
   [[nodiscard]] bool is_silent() const noexcept override { return is_late(axes_[0].heard) || is_late(axes_[1].heard); }
   void reset() noexcept override;
-  [[nodiscard]] bool is_enabled() const noexcept override;
+  [[nodiscard]] bool is_enabled() const noexcept override {
+    return std::all_of(axes_.begin(), axes_.end(), [](const MotorAxis& a) { return a.obeys; });
+  }
   [[nodiscard]] bool is_proved() const noexcept override { return proved_; }
   [[nodiscard]] std::optional<CanFrame> foreign_frame() const noexcept override { return foreign_; }
   /// Wheels that still turn are braked first.
@@ -113,7 +114,9 @@ class MotorPair : public WiredDrive {
 
   [[nodiscard]] const MotorAxis& axis(std::size_t index) const noexcept { return axes_[index]; }
   [[nodiscard]] Clock& clock() noexcept { return clock_; }
-  void send(const CanFrame& frame) noexcept;
+  void send(const CanFrame& frame) noexcept {
+    if (bus_.send(frame) != SendResult::kQueued) latch(DriveTrouble::kBusRefused);
+  }
   /// Lets a millisecond pass and takes in what came. Start-up only.
   void pass_time();
   /// Waits until the motor shows itself. Start-up only; throws absence().
@@ -127,9 +130,13 @@ class MotorPair : public WiredDrive {
   /// that something is wrong, which counts once the motor had time to forget what was before it was enabled;
   void report_fault(DriveTrouble trouble, const DriveFault& fault) noexcept;
   /// what it tells about that: the first is the one worth knowing, unless it was only seen from here;
-  void note(const DriveFault& fault) noexcept;
+  void note(const DriveFault& fault) noexcept {
+    if (!fault_.is_told() || fault_.kind == DriveFaultKind::kVescStill) fault_ = fault;
+  }
   /// that it was wrong;
-  void withdraw(DriveFaultKind kind, std::uint8_t node) noexcept;
+  void withdraw(DriveFaultKind kind, std::uint8_t node) noexcept {
+    if (fault_.kind == kind && fault_.node == node) fault_ = {};
+  }
   /// a frame that only another master sends.
   void note_foreign(const CanFrame& frame) noexcept;
   /// Whether its torque is on and it follows speeds.
@@ -139,7 +146,9 @@ class MotorPair : public WiredDrive {
   void receive() noexcept;
   void listen();
   [[nodiscard]] std::vector<std::string> judge_proofs() const;
-  [[nodiscard]] bool accepts(ProofResult result) const noexcept;
+  [[nodiscard]] bool accepts(ProofResult result) const noexcept {
+    return result == ProofResult::kPassed || (result == ProofResult::kUnproved && setup_.allow_unproved);
+  }
   void publish(Time stamp) noexcept;
   void watch() noexcept;
   /// Whether what comes regularly came too long ago.
@@ -195,7 +204,7 @@ class ShownReports {
   [[nodiscard]] bool is_over(Time now) const noexcept { return now - began_ >= shown_for(); }
   /// As often as stated.
   [[nodiscard]] bool is_often_enough() const noexcept;
-  [[nodiscard]] double per_second() const noexcept;
+  [[nodiscard]] double per_second() const noexcept { return readings_ / to_seconds(shown_for()); }
   [[nodiscard]] double fastest_radps() const noexcept { return fastest_radps_; }
   /// Periods and delays that it showed, for the robot file; or that no robot file can have them. Start-up only.
   [[nodiscard]] std::string remedy() const;

@@ -3,17 +3,18 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstdio>
 
 #include "drivers/wire/byte_reader.h"
 #include "drivers/wired_drive.h"
+#include "hal/shown_text.h"
+#include "hal/types/errors.h"
 
 namespace jaywalk::odrive {
 namespace {
 
-constexpr std::uint32_t kHeartbeat = 0x01, kEstop = 0x02, kGetError = 0x03, kWriteParameter = 0x04,
-                        kSetAxisState = 0x07, kEstimates = 0x09, kSetControllerMode = 0x0B, kSetInputVelocity = 0x0D,
-                        kReboot = 0x16, kClearErrors = 0x18, kUpdateMode = 0x1F;
+constexpr std::uint32_t kHeartbeat = 0x01, kEstop = 0x02, kWriteParameter = 0x04, kSetAxisState = 0x07,
+                        kEstimates = 0x09, kSetControllerMode = 0x0B, kSetInputVelocity = 0x0D, kReboot = 0x16,
+                        kClearErrors = 0x18, kUpdateMode = 0x1F;
 constexpr std::uint32_t kVelocityControl = 2, kPassThrough = 1, kVelocityRamp = 2;
 
 CanFrame command(std::uint8_t node, std::uint32_t number, std::uint8_t size, std::uint32_t first = 0,
@@ -38,11 +39,7 @@ constexpr Duration kFeeding = std::chrono::milliseconds(10);  ///< well within a
 constexpr double kStill_radps = 0.05;                         ///< noise of an encoder at rest
 constexpr double kHeld_radps = 0.3;  ///< and of one whose motor is held: 3 cm/s at a wheel of 0.1 m
 
-std::string in_hex(std::uint32_t number) {
-  std::array<char, 16> text{};
-  std::snprintf(text.data(), text.size(), "%08Xh", static_cast<unsigned>(number));
-  return text.data();
-}
+std::string in_hex(std::uint32_t number) { return formatted("%08Xh", static_cast<unsigned>(number)); }
 
 }  // namespace
 
@@ -82,10 +79,6 @@ std::optional<Message> decode(const CanFrame& frame) noexcept {
       const Heartbeat heartbeat{reader.little<std::uint32_t>(), reader.little<std::uint8_t>(),
                                 reader.little<std::uint8_t>()};
       return reader.ok() ? std::optional(Message{node, heartbeat}) : std::nullopt;
-    }
-    case kGetError: {
-      const Errors errors{reader.little<std::uint32_t>(), reader.little<std::uint32_t>()};
-      return reader.ok() ? std::optional(Message{node, errors}) : std::nullopt;
     }
     case kEstimates: return decode_estimates(node, reader);
     default: return std::nullopt;
@@ -217,6 +210,91 @@ std::string WatchdogProof::remedy() const {
       return "set enable_watchdog, watchdog_timeout = 0.06 and can.heartbeat_msg_rate_ms = 10 in the ODrive, or "
              "allow_unproved at your own risk";
   }
+}
+
+OdriveBase::OdriveBase(CanBus& bus, Clock& clock, const BaseSetup& setup)
+    : MotorPair(bus, clock,
+                {setup.silence_limit, setup.settling, std::chrono::seconds(1), setup.stop, setup.allow_unproved}),
+      setup_(setup) {
+  require_axes(setup.axes, {"ODrive node", 0, 62});
+}
+
+std::string OdriveBase::inspect(std::size_t side) {
+  await_motor(side);
+  return who(side) + "heartbeat and encoder estimates; errors " + error_words(seen_[side].errors) +
+         "; whether its watchdog lets go is seen at arming, which takes torque";
+}
+
+StartupError OdriveBase::absence(std::size_t index) const {
+  if (axis(index).heard == kNever)
+    return {who(index) + "no heartbeat", "see that the bus is up and the drive is powered"};
+  return {who(index) + "no encoder estimates", "set can.encoder_msg_rate_ms = 10 in the ODrive"};
+}
+
+ProofResult OdriveBase::continue_proof(std::size_t index) noexcept {
+  const Seen& seen = seen_[index];
+  const AxisReport report{axis(index).heard, seen.expired,   seen.errors,
+                          seen.state,        seen.procedure, axis(index).speed_radps};
+  for (const CanFrame& frame : proofs_[index].step(clock().now(), report)) send(frame);
+  return proofs_[index].result();
+}
+
+void OdriveBase::take(const ReceivedFrame& received) noexcept {
+  for (const CanAxis& axis_setup : setup_.axes)
+    if (is_order(received.frame, axis_setup.node)) return note_foreign(received.frame);
+  const auto message = decode(received.frame);
+  if (!message) return;
+  for (std::size_t k = 0; k < setup_.axes.size(); ++k) {
+    if (message->node != setup_.axes[k].node) continue;
+    if (const auto* heartbeat = std::get_if<Heartbeat>(&message->content)) {
+      if (!seen_[k].heartbeats.take_at(received.stamp, setup_.heartbeat_least)) note_foreign(received.frame);
+      take_heartbeat(k, *heartbeat, received.stamp);
+    }
+    if (const auto* estimates = std::get_if<EncoderEstimates>(&message->content))
+      take_estimates(k, *estimates, received.stamp);
+  }
+}
+
+void OdriveBase::take_heartbeat(std::size_t index, const Heartbeat& heartbeat, Time stamp) noexcept {
+  Seen& seen = seen_[index];
+  const bool expired = (heartbeat.active_errors & kWatchdogExpired) != 0;
+  if (!expired) seen.expired = kNever;
+  if (expired && seen.expired == kNever) seen.expired = stamp;
+  seen.errors = heartbeat.active_errors;
+  seen.state = heartbeat.axis_state;
+  seen.procedure = heartbeat.procedure;
+  note_heard(index, stamp);
+  note_obeys(index, heartbeat.axis_state == kClosedLoop && heartbeat.active_errors == 0);
+  const DriveFault fault{DriveFaultKind::kOdrive, setup_.axes[index].node, heartbeat.active_errors};
+  if ((heartbeat.active_errors & kEstopRequested) != 0) report_fault(DriveTrouble::kEmergency, fault);
+  if (heartbeat.active_errors != 0) report_fault(DriveTrouble::kDriveFault, fault);
+}
+
+void OdriveBase::take_estimates(std::size_t index, const EncoderEstimates& estimates, Time stamp) noexcept {
+  Seen& seen = seen_[index];
+  const double turns_per_rad = setup_.axes[index].per_rad;
+  const double turned = static_cast<double>(estimates.position_turns) - static_cast<double>(seen.position_turns);
+  seen.position_turns = estimates.position_turns;
+  note_turned(index, stamp, turned / turns_per_rad);
+  note_speed(index, stamp, static_cast<double>(estimates.velocity_turns_per_s) / turns_per_rad);
+}
+
+void OdriveBase::send_order(std::size_t index, MotorOrder order, double speed_radps) noexcept {
+  const std::uint8_t node = setup_.axes[index].node;
+  // It disarms, and its wheel rolls out: nothing of an ODrive brakes without obeying.
+  if (order == MotorOrder::kNetworkStop) return send(emergency_stop(node));
+  if (order == MotorOrder::kOff && seen_[index].state != kIdle) send(set_axis_state(node, AxisState::kIdle));
+  if (order == MotorOrder::kHold && seen_[index].state != kClosedLoop) {
+    send(set_velocity_mode(node, true));
+    send(set_axis_state(node, AxisState::kClosedLoop));
+  }
+  send(set_velocity(node, static_cast<float>(speed_radps * setup_.axes[index].per_rad)));
+}
+
+void OdriveBase::send_reset(std::size_t index) noexcept {
+  send(set_velocity_mode(setup_.axes[index].node, true));
+  send(set_velocity(setup_.axes[index].node, 0.0F));
+  send(clear_errors(setup_.axes[index].node));
 }
 
 }  // namespace jaywalk::odrive

@@ -60,10 +60,6 @@ std::vector<std::string> MotorPair::judge_proofs() const {
   return report;
 }
 
-bool MotorPair::accepts(ProofResult result) const noexcept {
-  return result == ProofResult::kPassed || (result == ProofResult::kUnproved && setup_.allow_unproved);
-}
-
 std::string MotorPair::inspect(std::size_t side) {
   await_motor(side);
   begin_proof(side);

@@ -11,7 +11,6 @@
 #include <cerrno>
 #include <cmath>
 #include <cstring>
-#include <utility>
 
 #include "drivers/wire/thread_without_signals.h"
 
@@ -67,8 +66,6 @@ std::optional<std::uint16_t> bus_of(int device) noexcept {
   if (::ioctl(device, question(0x02, sizeof told), &told) < 0) return std::nullopt;  // EVIOCGID
   return told.bustype;
 }
-
-Joystick::Joystick(JoystickSetup setup, BusOf bus) : setup_(std::move(setup)), ask_bus_(bus) {}
 
 void Joystick::poll(Time now) noexcept {
   if (device_.get() < 0 && (tried_ == kNever || now - tried_ >= kBetweenTries)) {
@@ -137,8 +134,6 @@ void Joystick::open() noexcept {
   on_bluetooth_ = ask_bus_(device_.get()) == BUS_BLUETOOTH;
   ask_present_state();
 }
-
-void Joystick::close() noexcept { device_ = wire::FileDescriptor(); }
 
 /// Events tell changes; how things stand must be asked for. What is no device does not answer.
 void Joystick::ask_present_state() noexcept {

@@ -78,7 +78,7 @@ using BusOf = std::optional<std::uint16_t> (*)(int device) noexcept;
 /// Thread: one; no memory is taken after construction.
 class Joystick {
  public:
-  explicit Joystick(JoystickSetup setup, BusOf bus = bus_of);
+  explicit Joystick(JoystickSetup setup, BusOf bus = bus_of) : setup_(std::move(setup)), ask_bus_(bus) {}
   /// Takes in what happened since.
   void poll(Time now) noexcept;
   [[nodiscard]] JoystickState state() const noexcept;
@@ -91,7 +91,7 @@ class Joystick {
   enum class Button : std::uint8_t { kUnknown, kReleased, kPressed };
 
   void open() noexcept;
-  void close() noexcept;
+  void close() noexcept { device_ = wire::FileDescriptor(); }
   void ask_present_state() noexcept;
   void read() noexcept;
   void take(const InputEvent& event) noexcept;
@@ -147,8 +147,6 @@ class JoystickWatch {
       : clock_(clock), joystick_(std::move(setup), bus) {}
   /// Waits for the thread.
   ~JoystickWatch();
-  JoystickWatch(const JoystickWatch&) = delete;
-  JoystickWatch& operator=(const JoystickWatch&) = delete;
 
   /// Starts the thread, with a priority of SCHED_FIFO (0: an ordinary one).
   void start(int priority);

@@ -1,5 +1,3 @@
-#include "firmware/program/run_command.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -9,6 +7,7 @@
 #include "drivers/can/can_interface.h"
 #include "drivers/wired_drive.h"
 #include "firmware/backends.h"
+#include "firmware/program/program.h"
 #include "firmware/recording/map_files.h"
 #include "firmware/robot/commissioned.h"
 #include "firmware/robot/control_socket.h"
@@ -129,9 +128,8 @@ void locate_on_map(const std::filesystem::path& path, RobotFile& file, Clock& cl
   file.setup.start = located_on(*file.setup.known_map, scan, file.setup.model.laser, path.string() + ": map: ");
   file.setup.goal = file.setup.start.position();
   const Pose2& start = file.setup.start;
-  char words[80];
-  std::snprintf(words, sizeof words, "found on the map at %.2f, %.2f, heading %.2f", start.x, start.y, start.heading);
-  remark(without_minus_zero(words));
+  const std::string words = formatted("found on the map at %.2f, %.2f, heading %.2f", start.x, start.y, start.heading);
+  remark(words);
 }
 
 RobotFile load_robot(const RunOptions& options) {

@@ -102,11 +102,7 @@ void draw(const sim::Raster& raster, KnownMap& map) {
   }
 }
 
-std::string text_of(const Pose2& pose) {
-  char text[80];
-  std::snprintf(text, sizeof text, "[%.1f, %.1f, %.2f]", pose.x, pose.y, pose.heading);
-  return without_minus_zero(text);
-}
+std::string text_of(const Pose2& pose) { return formatted("[%.1f, %.1f, %.2f]", pose.x, pose.y, pose.heading); }
 
 }  // namespace
 
@@ -128,8 +124,7 @@ std::shared_ptr<const KnownMap> load_known_map(const std::filesystem::path& yaml
   map->width = end_cell_of(box.high.x, cell_m) - map->low.i;
   map->height = end_cell_of(box.high.y, cell_m) - map->low.j;
   if (map->width > kMostKnownCells || map->height > kMostKnownCells) {
-    char side[48];
-    std::snprintf(side, sizeof side, ": more than %.0f m a side", kMostKnownCells * cell_m);
+    const std::string side = formatted(": more than %.0f m a side", kMostKnownCells * cell_m);
     throw StartupError(yaml.string() + side, "cut the map to where the robot drives");
   }
   map->cells.assign(static_cast<std::size_t>(map->width) * static_cast<std::size_t>(map->height), KnownCell::kUnknown);
@@ -147,8 +142,7 @@ Pose2 located_on(const KnownMap& map, const LaserScan& scan, const LaserModel& l
   if (sample.size() < kFewestPoints)
     throw StartupError(place + "the scan has too few points to find its place", remedy);
   const GlobalMatch match = search_everywhere(map, sample, laser.robot_from_laser.position());
-  char share[40];
-  std::snprintf(share, sizeof share, "%.0f %% of the scan", 100.0 * match.share);
+  const std::string share = formatted("%.0f %% of the scan", 100.0 * match.share);
   if (match.share < kLeastShare)
     throw StartupError(place + "the scan fits nowhere on the map: " + share + " at most", remedy);
   if (match.other && match.other_share > kNearlyAsWell * match.share)

@@ -1,9 +1,12 @@
 #include "firmware/recording/recorder.h"
 
+#include <fcntl.h>
+#include <unistd.h>
 #include <zlib.h>
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cstring>
 #include <filesystem>
 #include <utility>
@@ -74,8 +77,6 @@ RecordingWriter::RecordingWriter(const std::string& file, const std::string& set
   put(check);
 }
 
-RecordingWriter::~RecordingWriter() { close(); }
-
 void RecordingWriter::put(std::span<const unsigned char> bytes) noexcept {
   if (!bytes.empty()) std::memcpy(block_.data() + used_, bytes.data(), bytes.size());
   used_ += bytes.size();
@@ -133,10 +134,6 @@ RecordingReader::RecordingReader(const std::string& file, FilePart part)
   bytes_ = std::min(part.bytes, static_cast<std::uint64_t>(std::filesystem::file_size(file, unknown)));
   read_header();
 }
-
-double RecordingReader::share_read() const { return stream_.bytes_used() / static_cast<double>(bytes_); }
-
-bool RecordingReader::read(unsigned char* to, std::size_t bytes) { return stream_.read(to, bytes) == bytes; }
 
 void RecordingReader::damaged(const std::string& cause) const {
   throw StartupError(file_ + ": byte " + std::to_string(position_) + ": " + cause,
@@ -254,6 +251,42 @@ void Recorder::continue_in(const std::string& file, const std::string& setup) {
 bool Recorder::close() noexcept {
   const bool drained = drain();
   return (!writer_ || writer_->close()) && drained;
+}
+
+AppendFile::AppendFile(const std::string& file)
+    : file_(file), descriptor_(::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666)) {
+  if (descriptor_ < 0) {
+    throw StartupError(file + ": cannot be written: " + std::strerror(errno),
+                       "choose an --out folder that exists and may be written");
+  }
+}
+
+std::size_t AppendFile::append(std::span<const unsigned char> bytes) noexcept {
+  std::size_t taken = 0;
+  while (taken < bytes.size() && error_ == 0) {
+    const ssize_t count = ::write(descriptor_, bytes.data() + taken, bytes.size() - taken);
+    if (count > 0)
+      taken += static_cast<std::size_t>(count);
+    else if (count == 0 || errno != EINTR)
+      error_ = count == 0 ? ENOSPC : errno;
+  }
+  size_ += taken;
+  return taken;
+}
+
+void AppendFile::take_back(std::size_t bytes) noexcept {
+  size_ -= bytes;
+  if (::ftruncate(descriptor_, static_cast<off_t>(size_)) != 0 && error_ == 0) error_ = errno;
+}
+
+bool AppendFile::close() noexcept {
+  if (descriptor_ >= 0 && ::close(descriptor_) != 0 && error_ == 0) error_ = errno;
+  descriptor_ = -1;
+  return error_ == 0;
+}
+
+std::string AppendFile::complaint() const {
+  return error_ == 0 ? "" : file_ + ": the disk takes no more of it: " + std::strerror(error_);
 }
 
 }  // namespace jaywalk

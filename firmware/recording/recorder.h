@@ -2,18 +2,47 @@
 // From the tick to the disk without making the tick wait: a ring of records in memory, filled by
 // the loop's thread and emptied by another, or by the main loop between ticks.
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "firmware/recording/append_file.h"
 #include "firmware/recording/tick_entry.h"
 #include "firmware/recording/tick_record.h"
 #include "hal/text_file.h"
 
 namespace jaywalk {
+
+/// Appends bytes without a buffer of its own. After the first failure it takes no more: what stands before it is then
+/// the file, without a gap. Only the constructor allocates. Thread: one.
+class AppendFile {
+ public:
+  /// Makes the file, or empties it. Throws StartupError where it cannot.
+  explicit AppendFile(const std::string& file);
+  ~AppendFile() { close(); }
+  AppendFile(const AppendFile&) = delete;
+  AppendFile& operator=(const AppendFile&) = delete;
+
+  /// How many of the bytes the disk took: all of them, or fewer and has_failed() from then on.
+  [[nodiscard]] std::size_t append(std::span<const unsigned char> bytes) noexcept;
+  /// Takes the last `bytes` back: a row or an entry of which the disk took a part.
+  void take_back(std::size_t bytes) noexcept;
+  /// False when the disk lost anything, now or before.
+  bool close() noexcept;
+
+  [[nodiscard]] bool has_failed() const noexcept { return error_ != 0; }
+  [[nodiscard]] std::size_t bytes() const noexcept { return size_; }
+  /// "out/robot.csv: the disk takes no more of it: No space left on device"; empty while all is well. Allocates.
+  [[nodiscard]] std::string complaint() const;
+
+ private:
+  std::string file_;
+  int descriptor_;
+  std::size_t size_ = 0;
+  int error_ = 0;  ///< errno of the first failure
+};
 
 // A recording on disk (recording.jwr), little endian:
 //
@@ -37,9 +66,7 @@ class RecordingWriter {
   /// kMaxSetupBytes. Throws StartupError when the file cannot be made.
   RecordingWriter(const std::string& file, const std::string& setup);
   /// Writes the end mark.
-  ~RecordingWriter();
-  RecordingWriter(const RecordingWriter&) = delete;
-  RecordingWriter& operator=(const RecordingWriter&) = delete;
+  ~RecordingWriter() { close(); }
 
   static constexpr Duration kLongestWait = std::chrono::milliseconds(100);
 
@@ -77,14 +104,14 @@ class RecordingReader {
   /// False at the end, cut or proper. Throws StartupError with the place for a damaged entry.
   [[nodiscard]] bool next(TickRecord& record);
   /// How much of the file has been read, 0 to 1.
-  [[nodiscard]] double share_read() const;
+  [[nodiscard]] double share_read() const { return stream_.bytes_used() / static_cast<double>(bytes_); }
   /// Records that the recorder dropped between the last two that next() gave.
   [[nodiscard]] std::uint64_t lost_before() const { return lost_before_; }
   /// After next() returned false: where and how the file was cut; empty for a proper end.
   [[nodiscard]] const std::string& warning() const { return warning_; }
 
  private:
-  [[nodiscard]] bool read(unsigned char* to, std::size_t bytes);
+  [[nodiscard]] bool read(unsigned char* to, std::size_t bytes) { return stream_.read(to, bytes) == bytes; }
   void read_header();
   void check_end(std::uint32_t entries);
   void cut_short();

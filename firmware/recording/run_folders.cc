@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <charconv>
 #include <cstdio>
 #include <ctime>
 #include <fstream>
@@ -17,6 +16,7 @@
 #include <string_view>
 #include <utility>
 
+#include "hal/shown_text.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk {
@@ -173,10 +173,8 @@ void refuse_to_overwrite(std::span<const std::filesystem::path> inputs, const st
 
 int part_number(const std::filesystem::path& folder) {
   const std::string name = folder.filename().string();
-  int number = 0;
   if (!name.starts_with(kPrefix)) return 0;
-  const auto [end, error] = std::from_chars(name.data() + kPrefix.size(), name.data() + name.size(), number);
-  return error == std::errc{} && end == name.data() + name.size() ? std::max(number, 0) : 0;
+  return std::max(number_in<int>(std::string_view(name).substr(kPrefix.size())).value_or(0), 0);
 }
 
 std::vector<std::filesystem::path> parts_of(const std::filesystem::path& run) {

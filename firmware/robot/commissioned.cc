@@ -182,10 +182,6 @@ ArmedMark::ArmedMark(const std::filesystem::path& folder, std::string robot)
   if (folder_.get() < 0) throw StartupError(folder.string() + ": " + std::strerror(errno), "see to its rights");
 }
 
-ArmedMark::~ArmedMark() {
-  if (set_) ::unlinkat(folder_.get(), file_.filename().c_str(), 0);
-}
-
 void ArmedMark::set() {
   const wire::FileDescriptor file(::openat(folder_.get(), file_.filename().c_str(),
                                            O_WRONLY | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0644));

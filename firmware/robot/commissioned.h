@@ -57,9 +57,9 @@ class ArmedMark {
   /// `robot` tells it from others: what its drives are wired to. Throws StartupError where `folder` cannot be opened.
   ArmedMark(const std::filesystem::path& folder, std::string robot);
   /// An orderly end takes the file away.
-  ~ArmedMark();
-  ArmedMark(const ArmedMark&) = delete;
-  ArmedMark& operator=(const ArmedMark&) = delete;
+  ~ArmedMark() {
+    if (set_) ::unlinkat(folder_.get(), file_.filename().c_str(), 0);
+  }
 
   /// Whether the run before this one left it.
   [[nodiscard]] bool was_left() const noexcept { return was_left_; }

@@ -115,8 +115,6 @@ class ControlSocket {
   /// or nobody can.
   ControlSocket(std::filesystem::path path, Answer answer, int priority = 0);
   ~ControlSocket();
-  ControlSocket(const ControlSocket&) = delete;
-  ControlSocket& operator=(const ControlSocket&) = delete;
 
  private:
   void serve(int priority) noexcept;

@@ -6,8 +6,8 @@
 
 #include "drivers/arcos/arcos_base.h"
 #include "drivers/canopen/drive_base.h"
-#include "drivers/motor/odrive_base.h"
-#include "drivers/motor/vesc_base.h"
+#include "drivers/motor/odrive.h"
+#include "drivers/motor/vesc.h"
 #include "drivers/ros/ros_base.h"
 #include "hal/toml_file.h"
 #include "hal/types/robot_model.h"

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <cstdio>
 
@@ -28,14 +27,12 @@ std::vector<std::string> split(std::string_view text) {
 
 /// A number of at most `most` either way; `what` it is, for complaints.
 double read_number(const std::string& word, const std::string& what, double most, const std::string& remedy) {
-  double value = 0.0;
-  const char* const end = word.data() + word.size();
-  const auto [rest, error] = std::from_chars(word.data(), end, value);
+  const auto value = number_in<double>(word);
   const std::string place = "goto: " + what + " " + word;
-  if (rest != end || error != std::errc{}) throw StartupError(place + " is no number", remedy);
-  if (!std::isfinite(value)) throw StartupError(place + " is not finite", remedy);
-  if (std::fabs(value) > most) throw StartupError(place + " is out of range", remedy);
-  return value;
+  if (!value) throw StartupError(place + " is no number", remedy);
+  if (!std::isfinite(*value)) throw StartupError(place + " is not finite", remedy);
+  if (std::fabs(*value) > most) throw StartupError(place + " is out of range", remedy);
+  return *value;
 }
 
 }  // namespace

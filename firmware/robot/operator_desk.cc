@@ -26,10 +26,6 @@ void OperatorControls::start(int priority) {
   watch_->start(priority);
 }
 
-void OperatorControls::step() noexcept {
-  if (watch_) watch_->step();
-}
-
 void refuse_unrenewed(const panel::JoystickState& state, const PanelWiring& wiring) {
   if (!state.needs_renewal || !wiring.needs_dead_man) return;
   throw StartupError(wiring.joystick.path + ": is on Bluetooth, whose link may die with the dead man held",
@@ -89,8 +85,6 @@ std::string OperatorDesk::take_stop(bool now) {
   wish({});
   return "stopping\n";
 }
-
-bool OperatorDesk::is_stopping(const RunStatus& status) const { return status.stops_done != wish_.stops; }
 
 void OperatorDesk::wish(const Orders& orders) {
   ++wish_.number;
@@ -228,10 +222,6 @@ OperatorInput OperatorDesk::latest() noexcept {
   seen_ = wish;
   head_for_goal();
   return input_;
-}
-
-void OperatorDesk::answer_place(const PlaceAnswer& answer) noexcept {
-  if (answer.is_taken() && permission_.revoked() == told_under_) told_place_.tell(answer.map_from_robot);
 }
 
 void OperatorDesk::head_for_goal() noexcept {

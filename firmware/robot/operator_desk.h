@@ -67,7 +67,9 @@ class OperatorDesk final : public OperatorPanel {
   [[nodiscard]] Permission& permission() noexcept { return permission_; }
   /// Loop's thread: a told place, to be held against the map; and the answer.
   [[nodiscard]] std::optional<ToldPlaceOrder> place_to_check() noexcept { return std::exchange(to_check_, {}); }
-  void answer_place(const PlaceAnswer& answer) noexcept;
+  void answer_place(const PlaceAnswer& answer) noexcept {
+    if (answer.is_taken() && permission_.revoked() == told_under_) told_place_.tell(answer.map_from_robot);
+  }
   /// Loop's thread: where people say that the robot is.
   [[nodiscard]] PoseSource& told_place() noexcept { return told_place_; }
   /// Loop's thread, after a tick: how it went. Adds what of the status the desk knows: of goals, and by what it stands.
@@ -86,7 +88,7 @@ class OperatorDesk final : public OperatorPanel {
   /// Under the lock: takes the place of what was asked for before.
   void wish(const Orders& orders);
   /// Under the lock: until the newest order to stop was obeyed to rest.
-  [[nodiscard]] bool is_stopping(const RunStatus& status) const;
+  [[nodiscard]] bool is_stopping(const RunStatus& status) const { return status.stops_done != wish_.stops; }
   /// Under the lock: why no goal is taken now; empty where one is.
   [[nodiscard]] std::string goals_are_refused(const RunStatus& status) const;
   /// Loop's thread: the goal that is permitted, or none.
@@ -153,14 +155,14 @@ class OperatorControls {
  public:
   /// `drive` and `clock` outlive it.
   OperatorControls(const RobotFile& file, WiredDrive& drive, Clock& clock, OperatorDesk::RestartBus restart_bus);
-  OperatorControls(const OperatorControls&) = delete;
-  OperatorControls& operator=(const OperatorControls&) = delete;
 
   /// Start-up only: looks at the joystick once and starts its thread, with a priority of SCHED_FIFO (0: an ordinary
   /// one). Throws StartupError where its dead man could stay held when its link has died.
   void start(int priority);
   /// What the thread does: by hand where none was started.
-  void step() noexcept;
+  void step() noexcept {
+    if (watch_) watch_->step();
+  }
 
   [[nodiscard]] OperatorDesk& desk() noexcept { return desk_; }
   /// What the loop sees.

@@ -1,8 +1,9 @@
 #include "firmware/robot/place_check.h"
 
 #include <cmath>
-#include <cstdio>
 #include <utility>
+
+#include "hal/shown_text.h"
 
 namespace jaywalk {
 namespace {
@@ -11,11 +12,7 @@ namespace {
 constexpr double kEye_m = 0.13, kEye_rad = 0.1;
 constexpr double kWheelRolled_rad = 0.1;  ///< of a wheel: it does not stand
 
-std::string text_of_place(const Pose2& pose) {
-  char text[80];
-  std::snprintf(text, sizeof text, "%.2f,%.2f %.2f", pose.x, pose.y, pose.heading);
-  return text;
-}
+std::string text_of_place(const Pose2& pose) { return formatted("%.2f,%.2f %.2f", pose.x, pose.y, pose.heading); }
 
 }  // namespace
 
@@ -26,8 +23,7 @@ std::string words_of(const PlaceAnswer& answer) {
   if (answer.why == Why::kMoved) return "refused: the robot moved meanwhile; try again when it stands\n";
   const std::string better = answer.has_better ? text_of_place(answer.better) : "";
   if (answer.why == Why::kElsewhere) return "refused: the scan fits much better at " + better + "; say that, " + forced;
-  char share[60];
-  std::snprintf(share, sizeof share, "%.0f %% of it lies on walls", 100.0 * answer.fit);
+  const std::string share = formatted("%.0f %% of it lies on walls", 100.0 * answer.fit);
   return std::string("refused: the scan does not fit there: ") + share + " of the map; " +
          (answer.has_better ? "it fits at " + better : "look again where the robot is") + ", " + forced;
 }

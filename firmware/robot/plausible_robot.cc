@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <memory>
 #include <span>
@@ -10,6 +9,7 @@
 #include "firmware/robot/robot_file.h"
 #include "firmware/safety/blind_gaps.h"
 #include "firmware/safety/stop_zone.h"
+#include "hal/shown_text.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk {
@@ -28,9 +28,7 @@ constexpr double kFastestMotor_rpm = 30000.0, kFastestField_rpm = 300000.0;  // 
 /// Formats into a message.
 template <class... Numbers>
 std::string text(const char* format, Numbers... numbers) {
-  std::array<char, 300> said{};
-  std::snprintf(said.data(), said.size(), format, numbers...);
-  return said.data();
+  return formatted(format, numbers...);
 }
 
 class Check {

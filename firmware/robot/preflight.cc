@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <fstream>
 #include <thread>
 
@@ -18,6 +17,7 @@
 #include "firmware/robot/robot_devices.h"
 #include "firmware/safety/blind_gaps.h"
 #include "firmware/safety/stop_zone.h"
+#include "hal/shown_text.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk {
@@ -152,9 +152,8 @@ std::string sectors_on_body(const StopZone& zone, const LaserScan& scan) {
     const double first_deg = scan.angle_rad(beam) * kDegPerRad - step_deg;
     while (beam + 1 < scan.beam_count && zone.is_on_body(scan, beam + 1)) ++beam;
     const double last_deg = scan.angle_rad(beam) * kDegPerRad + step_deg;
-    char sector[80];
-    std::snprintf(sector, sizeof sector, " [[laser.blanked]] from_deg = %.1f, to_deg = %.1f",
-                  std::min(first_deg, last_deg), std::max(first_deg, last_deg));
+    const std::string sector = formatted(" [[laser.blanked]] from_deg = %.1f, to_deg = %.1f",
+                                         std::min(first_deg, last_deg), std::max(first_deg, last_deg));
     sectors += sector;
   }
   return sectors;
@@ -229,9 +228,8 @@ std::string check_scanner(const RobotFile& file, Clock& clock, std::size_t scann
   LaserScan scan = laser->latest();
   blank(model.blanked, scan);
   const double rate_hz = (scan.sequence - before) / to_seconds(kRateSpan);
-  char figures[100];
-  std::snprintf(figures, sizeof figures, ": %u beams, %.0f scans a second", static_cast<unsigned>(scan.beam_count),
-                rate_hz);
+  const std::string figures =
+      formatted(": %u beams, %.0f scans a second", static_cast<unsigned>(scan.beam_count), rate_hz);
   const std::string said = laser->name() + figures;
   require_free_body(said, scan, file.setup.model.footprint, model.robot_from_laser);
   require_sight(said, scan, model);

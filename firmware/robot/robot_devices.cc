@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
-#include "drivers/laser/scanner_setup.h"
+#include "drivers/laser/scanner_connection.h"
 #include "firmware/robot/commissioned.h"
+#include "hal/shown_text.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk {
@@ -31,6 +31,22 @@ std::unique_ptr<ros::RosBus> make_ros_bus(const ros::BaseSetup& base, Clock& clo
 
 std::unique_ptr<ByteBus> make_line(const ByteWiring& line, Clock& clock) {
   return std::make_unique<ByteBus>(wire::make_byte_link(line.host, line.port, line.device, line.baud), clock);
+}
+
+/// Throws where a scan's fan is not the file's, by half a step and more: a wrong step bends all that is seen. A turn's
+/// last beam may be counted as the first of the next.
+void require_fan(ScannerConnection& laser, const LaserModel& model) {
+  const LaserScan& scan = laser.latest();
+  const double step_rad = std::fabs(static_cast<double>(scan.angle_step_rad));
+  const double swept_rad = step_rad * (scan.beam_count - 1.0), least_off_rad = 0.5 * step_rad;
+  const bool turns = std::fabs(swept_rad + step_rad - 2.0 * kPi) < least_off_rad;
+  const double off_rad = std::fabs(swept_rad - model.fov_rad);
+  const bool same = off_rad < least_off_rad || (turns && std::fabs(model.fov_rad - 2.0 * kPi) < least_off_rad);
+  if (scan.beam_count == model.beams && same) return;
+  const std::string differs = formatted(": scans of %u beams over %.1f degrees, and the file says %u over %.1f",
+                                        static_cast<unsigned>(scan.beam_count), swept_rad * 180.0 / kPi,
+                                        static_cast<unsigned>(model.beams), model.fov_rad * 180.0 / kPi);
+  throw StartupError(laser.name() + differs, "correct [laser] beams and fov_deg");
 }
 
 }  // namespace
@@ -112,27 +128,6 @@ void RobotDevices::start() {
   for (std::size_t k = 0; k < lasers_.size(); ++k) await_first_scan(*lasers_[k], file_, clock_, k);
   if (can_) can_->listen(filters_for(file_.drive));
 }
-
-namespace {
-
-/// Throws where a scan's fan is not the file's, by half a step and more: a wrong step bends all that is seen. A turn's
-/// last beam may be counted as the first of the next.
-void require_fan(ScannerConnection& laser, const LaserModel& model) {
-  const LaserScan& scan = laser.latest();
-  const double step_rad = std::fabs(static_cast<double>(scan.angle_step_rad));
-  const double swept_rad = step_rad * (scan.beam_count - 1.0), least_off_rad = 0.5 * step_rad;
-  const bool turns = std::fabs(swept_rad + step_rad - 2.0 * kPi) < least_off_rad;
-  const double off_rad = std::fabs(swept_rad - model.fov_rad);
-  const bool same = off_rad < least_off_rad || (turns && std::fabs(model.fov_rad - 2.0 * kPi) < least_off_rad);
-  if (scan.beam_count == model.beams && same) return;
-  char differs[120];
-  std::snprintf(differs, sizeof differs, ": scans of %u beams over %.1f degrees, and the file says %u over %.1f",
-                static_cast<unsigned>(scan.beam_count), swept_rad * 180.0 / kPi, static_cast<unsigned>(model.beams),
-                model.fov_rad * 180.0 / kPi);
-  throw StartupError(laser.name() + differs, "correct [laser] beams and fov_deg");
-}
-
-}  // namespace
 
 void await_first_scan(ScannerConnection& laser, const RobotFile& file, Clock& clock, std::size_t scanner) {
   laser.start(laser_priority(file.realtime));  // the loop's thread tells what is not permitted

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "drivers/can/byte_bus.h"
+#include "drivers/can/can_bus.h"
 #include "drivers/can/can_interface.h"
 #include "drivers/can/socketcan.h"
 #include "drivers/canopen/cia402.h"

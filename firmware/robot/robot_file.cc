@@ -1,13 +1,9 @@
 #include "firmware/robot/robot_file.h"
 
-#include <algorithm>
-#include <cctype>
-
 #include "firmware/recording/map_files.h"
 #include "firmware/safety/stop_zone.h"
 #include "hal/map_zones_file.h"
 #include "hal/robot_model_file.h"
-#include "hal/toml_file.h"
 
 namespace jaywalk {
 namespace {
@@ -135,80 +131,6 @@ Rows place_keys() {
                        key_row("at", kNumbers, kNeeded, "[x, y] or [x, y, heading] in the map", "m, m, rad")});
 }
 
-}  // namespace
-
-const BoundKeys<LaserWiring>& dds_laser_keys() {
-  static const BoundKeys<LaserWiring> keys(
-      "laser:dds", {key_row("topic", kText, "/scan", "its sensor_msgs/LaserScan, by jaywalk_dds"),
-                    boolean_row("reliable", &LaserWiring::reliable, "lost scans are sent again"),
-                    boolean_row("infinity_is_free", &LaserWiring::infinity_is_free,
-                                "infinity is free room (REP 117); rplidar_ros means errors, too")});
-  return keys;
-}
-
-const BoundKeys<panel::JoystickSetup>& button_keys() {
-  using panel::JoystickSetup;
-  static const BoundKeys<JoystickSetup> keys(
-      "panel",
-      {whole_row("dead_man_button", &JoystickSetup::dead_man, kButtons, "",
-                 "number of linux/input-event-codes.h: the left shoulder"),
-       whole_row("stop_button", &JoystickSetup::stop, kButtons, "", "emergency stop"),
-       boolean_row("stop_opens", &JoystickSetup::stop_opens, "the stop is a contact that opens; not known means stop"),
-       whole_row("reset_button", &JoystickSetup::reset, kButtons, "", "reset, at rest")});
-  return keys;
-}
-
-const BoundKeys<RealtimeWishes>& realtime_keys() {
-  static const BoundKeys<RealtimeWishes> keys(
-      "realtime", {whole_row("priority", &RealtimeWishes::priority, {0.0, 98.0}, "",
-                             "of SCHED_FIFO, for the loop; 0: an ordinary thread"),
-                   boolean_row("lock_memory", &RealtimeWishes::lock_memory, "nothing of the program is paged out"),
-                   boolean_row("required", &RealtimeWishes::required,
-                               "false: a run starts although the kernel refuses some of this"),
-                   whole_row("cpu", {0.0, 1023.0}, "", "any", "a processor for the loop alone (boot with isolcpus)")});
-  return keys;
-}
-
-const BoundKeys<canopen::DriveSettings>& canopen_keys() {
-  using canopen::DriveSettings;
-  static const BoundKeys<DriveSettings> keys(
-      "drive:cia402", {whole_row("controller_node", &DriveSettings::controller_node, kNodes, "",
-                                 "the node whose heartbeat the drives watch: this program"),
-                       whole_row("controller_timeout_ms", &DriveSettings::controller_timeout_ms, {40.0, 100.0}, "ms",
-                                 "without that heartbeat a drive stops by itself; at least two of the loop's periods"),
-                       whole_row("heartbeat_ms", &DriveSettings::heartbeat_ms, {5.0, 100.0}, "ms",
-                                 "the drives' own heartbeat; missed for three of these, a drive counts as lost")});
-  return keys;
-}
-
-const FileKeys& robot_file_keys() {
-  static const FileKeys keys = file_keys(
-      "Robot file", {top_keys(),
-                     first_scanner_keys(),
-                     dds_laser_keys().keys(),
-                     other_scanner_keys(),
-                     laser_keys("laser"),
-                     drive_keys(),
-                     axis_keys("cia402", 2.0, "counts_per_wheel_turn",
-                               "encoder counts a turn of the wheel, gear included", {12.0, 1e8}),
-                     axis_keys("odrive", 1.0, "motor_turns_per_wheel_turn", "the gear", {0.1, 1000.0}),
-                     axis_keys("vesc", 1.0, "electrical_turns_per_wheel_turn", "gear times pole pairs", {1.0, 1e5}),
-                     canopen_keys().keys(),
-                     topic_keys(),
-                     report_keys("dds", "the loop's period"),
-                     ros_keys(),
-                     pioneer_keys(),
-                     report_keys("pioneer", 100.0),
-                     panel_keys(),
-                     button_keys().keys(),
-                     place_keys(),
-                     zone_keys(),
-                     realtime_keys().keys()});
-  return keys;
-}
-
-namespace {
-
 LaserWiring read_wiring(TomlTable& table) {
   const ScannerMake& choice = scanner_makes()[table.choose_keys("kind")];
   LaserWiring wiring;
@@ -284,6 +206,76 @@ NamedPlace read_place(TomlTable& table, const std::vector<NamedPlace>& before, c
 }
 
 }  // namespace
+
+const BoundKeys<LaserWiring>& dds_laser_keys() {
+  static const BoundKeys<LaserWiring> keys(
+      "laser:dds", {key_row("topic", kText, "/scan", "its sensor_msgs/LaserScan, by jaywalk_dds"),
+                    boolean_row("reliable", &LaserWiring::reliable, "lost scans are sent again"),
+                    boolean_row("infinity_is_free", &LaserWiring::infinity_is_free,
+                                "infinity is free room (REP 117); rplidar_ros means errors, too")});
+  return keys;
+}
+
+const BoundKeys<panel::JoystickSetup>& button_keys() {
+  using panel::JoystickSetup;
+  static const BoundKeys<JoystickSetup> keys(
+      "panel",
+      {whole_row("dead_man_button", &JoystickSetup::dead_man, kButtons, "",
+                 "number of linux/input-event-codes.h: the left shoulder"),
+       whole_row("stop_button", &JoystickSetup::stop, kButtons, "", "emergency stop"),
+       boolean_row("stop_opens", &JoystickSetup::stop_opens, "the stop is a contact that opens; not known means stop"),
+       whole_row("reset_button", &JoystickSetup::reset, kButtons, "", "reset, at rest")});
+  return keys;
+}
+
+const BoundKeys<RealtimeWishes>& realtime_keys() {
+  static const BoundKeys<RealtimeWishes> keys(
+      "realtime", {whole_row("priority", &RealtimeWishes::priority, {0.0, 98.0}, "",
+                             "of SCHED_FIFO, for the loop; 0: an ordinary thread"),
+                   boolean_row("lock_memory", &RealtimeWishes::lock_memory, "nothing of the program is paged out"),
+                   boolean_row("required", &RealtimeWishes::required,
+                               "false: a run starts although the kernel refuses some of this"),
+                   whole_row("cpu", {0.0, 1023.0}, "", "any", "a processor for the loop alone (boot with isolcpus)")});
+  return keys;
+}
+
+const BoundKeys<canopen::DriveSettings>& canopen_keys() {
+  using canopen::DriveSettings;
+  static const BoundKeys<DriveSettings> keys(
+      "drive:cia402", {whole_row("controller_node", &DriveSettings::controller_node, kNodes, "",
+                                 "the node whose heartbeat the drives watch: this program"),
+                       whole_row("controller_timeout_ms", &DriveSettings::controller_timeout_ms, {40.0, 100.0}, "ms",
+                                 "without that heartbeat a drive stops by itself; at least two of the loop's periods"),
+                       whole_row("heartbeat_ms", &DriveSettings::heartbeat_ms, {5.0, 100.0}, "ms",
+                                 "the drives' own heartbeat; missed for three of these, a drive counts as lost")});
+  return keys;
+}
+
+const FileKeys& robot_file_keys() {
+  static const FileKeys keys = file_keys(
+      "Robot file", {top_keys(),
+                     first_scanner_keys(),
+                     dds_laser_keys().keys(),
+                     other_scanner_keys(),
+                     laser_keys("laser"),
+                     drive_keys(),
+                     axis_keys("cia402", 2.0, "counts_per_wheel_turn",
+                               "encoder counts a turn of the wheel, gear included", {12.0, 1e8}),
+                     axis_keys("odrive", 1.0, "motor_turns_per_wheel_turn", "the gear", {0.1, 1000.0}),
+                     axis_keys("vesc", 1.0, "electrical_turns_per_wheel_turn", "gear times pole pairs", {1.0, 1e5}),
+                     canopen_keys().keys(),
+                     topic_keys(),
+                     report_keys("dds", "the loop's period"),
+                     ros_keys(),
+                     pioneer_keys(),
+                     report_keys("pioneer", 100.0),
+                     panel_keys(),
+                     button_keys().keys(),
+                     place_keys(),
+                     zone_keys(),
+                     realtime_keys().keys()});
+  return keys;
+}
 
 RobotFile load_robot_file(const std::filesystem::path& path) {
   const TomlFile file(path, robot_file_keys());

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "drivers/laser/scanner_setup.h"
+#include "drivers/laser/scanner_connection.h"
 #include "drivers/panel/joystick.h"
 #include "firmware/control_setup.h"
 #include "firmware/robot/drive_wiring.h"

@@ -12,7 +12,7 @@
 #include "drivers/can/can_bus.h"
 #include "drivers/laser/scanner_connection.h"
 #include "drivers/wired_drive.h"
-#include "firmware/loop_runner.h"
+#include "firmware/control_loop.h"
 #include "firmware/robot/operator_desk.h"
 #include "firmware/robot/realtime.h"
 #include "firmware/robot/service_manager.h"
@@ -28,8 +28,6 @@ class StallGuard {
   /// Both outlive it. The brake is used by the guard's thread alone.
   StallGuard(EmergencyBrake& brake, Clock& clock, Duration limit) noexcept;
   ~StallGuard();
-  StallGuard(const StallGuard&) = delete;
-  StallGuard& operator=(const StallGuard&) = delete;
 
   /// Starts the thread, with a priority of SCHED_FIFO (0: an ordinary one).
   void start(int priority);
@@ -81,8 +79,6 @@ class RobotLoop {
   RobotLoop(LoopRunner& runner, const LoopDevices& devices, OperatorDesk& desk, Clock& clock, StallGuard& guard,
             TickObserver& observer);
   ~RobotLoop();
-  RobotLoop(const RobotLoop&) = delete;
-  RobotLoop& operator=(const RobotLoop&) = delete;
 
   /// Start-up only, before the drives are armed: starts the thread, which asks the kernel for what is wished and then
   /// waits. Returns what was not permitted, a line each.

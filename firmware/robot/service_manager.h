@@ -56,8 +56,6 @@ class StderrRelay {
   /// Where no pipe can be made standard error stays as it is, and may block.
   StderrRelay();
   ~StderrRelay();
-  StderrRelay(const StderrRelay&) = delete;
-  StderrRelay& operator=(const StderrRelay&) = delete;
 
  private:
   struct Ends {
@@ -98,8 +96,6 @@ class SignalThread {
   /// SCHED_FIFO; 0: an ordinary thread.
   explicit SignalThread(int priority);
   ~SignalThread();
-  SignalThread(const SignalThread&) = delete;
-  SignalThread& operator=(const SignalThread&) = delete;
 
  private:
   void live(int priority) noexcept;

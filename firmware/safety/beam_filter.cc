@@ -7,6 +7,7 @@
 
 namespace jaywalk {
 namespace {
+
 /// Width that a walking pedestrian may uncover between two scans: a fast walk's way, and noise, edges and legs.
 constexpr double kWalk_mps = 2.0, kEdges_m = 0.15;
 /// Fewer beams are flicker of an edge or of a dark surface.
@@ -22,6 +23,33 @@ constexpr double kSureShare = 0.9;
 /// Age to which a surface is expected where its beam has told nothing since.
 constexpr double kOldestSeen_s = 1.0;
 constexpr double kMostWay_m = 1.0;  ///< between two scans; more is another robot
+
+constexpr double kWhole_m = 0.07;        ///< a cylinder that every scan is to show (SAFETY 8)
+constexpr double kSlim_m = 0.02;         ///< width of a body that is believed at once; half of its beams may be lost
+constexpr double kSameBody_m = 0.07;     ///< ranges of one body differ by so much, and
+constexpr double kSameBodyBeams = 10.0;  ///< on a wall that is seen at 6 degrees, by so many times the beams' distance
+constexpr double kAlong_m = 0.03;        ///< a range's noise between two scans: two standard deviations of 1 cm each
+constexpr double kAside_m = 0.007;       ///< error of odometry between two scans: 5 ms of a stamp at 1.2 m/s
+constexpr double kTurn_rad = 0.01;       ///< the same of its heading: 5 ms of a stamp at 1.5 rad/s
+constexpr double kLeastApart_m = 1e-4;   ///< least distance between two beams, m: of what stands on the window
+
+double range_of(const LaserScan& scan, std::size_t beam) { return static_cast<double>(scan.range_m[beam]); }
+
+double step_of(const LaserScan& scan) { return std::fabs(static_cast<double>(scan.angle_step_rad)); }
+
+/// Whether the beams about this one show a body of kSlim_m.
+bool has_neighbours(const LaserScan& scan, std::size_t beam) {
+  const double range = range_of(scan, beam), apart_m = std::max(range * step_of(scan), kLeastApart_m);
+  if (kWhole_m < 3.0 * apart_m) return true;  // so far away a cylinder may be one beam
+  const double beams = kSlim_m / apart_m;
+  const auto needed = static_cast<std::size_t>(std::max(2.0, std::ceil(0.5 * beams)));
+  const auto reach = static_cast<std::size_t>(std::max(2.0, beams));
+  const std::size_t last = std::min<std::size_t>(beam + reach, scan.beam_count - 1U);
+  std::size_t alike = 0;
+  for (std::size_t k = beam - std::min(beam, reach); k <= last; ++k)
+    alike += scan.is_hit(k) && std::fabs(range_of(scan, k) - range) < kSameBody_m + kSameBodyBeams * apart_m ? 1U : 0U;
+  return alike >= needed;
+}
 
 }  // namespace
 
@@ -186,36 +214,6 @@ void FreeClaims::remember(const LaserScan& scan) noexcept {
       surface_[k] = {};
   }
 }
-
-namespace {
-constexpr double kWhole_m = 0.07;        ///< a cylinder that every scan is to show (SAFETY 8)
-constexpr double kSlim_m = 0.02;         ///< width of a body that is believed at once; half of its beams may be lost
-constexpr double kSameBody_m = 0.07;     ///< ranges of one body differ by so much, and
-constexpr double kSameBodyBeams = 10.0;  ///< on a wall that is seen at 6 degrees, by so many times the beams' distance
-constexpr double kAlong_m = 0.03;        ///< a range's noise between two scans: two standard deviations of 1 cm each
-constexpr double kAside_m = 0.007;       ///< error of odometry between two scans: 5 ms of a stamp at 1.2 m/s
-constexpr double kTurn_rad = 0.01;       ///< the same of its heading: 5 ms of a stamp at 1.5 rad/s
-constexpr double kLeastApart_m = 1e-4;   ///< least distance between two beams, m: of what stands on the window
-
-double range_of(const LaserScan& scan, std::size_t beam) { return static_cast<double>(scan.range_m[beam]); }
-
-double step_of(const LaserScan& scan) { return std::fabs(static_cast<double>(scan.angle_step_rad)); }
-
-/// Whether the beams about this one show a body of kSlim_m.
-bool has_neighbours(const LaserScan& scan, std::size_t beam) {
-  const double range = range_of(scan, beam), apart_m = std::max(range * step_of(scan), kLeastApart_m);
-  if (kWhole_m < 3.0 * apart_m) return true;  // so far away a cylinder may be one beam
-  const double beams = kSlim_m / apart_m;
-  const auto needed = static_cast<std::size_t>(std::max(2.0, std::ceil(0.5 * beams)));
-  const auto reach = static_cast<std::size_t>(std::max(2.0, beams));
-  const std::size_t last = std::min<std::size_t>(beam + reach, scan.beam_count - 1U);
-  std::size_t alike = 0;
-  for (std::size_t k = beam - std::min(beam, reach); k <= last; ++k)
-    alike += scan.is_hit(k) && std::fabs(range_of(scan, k) - range) < kSameBody_m + kSameBodyBeams * apart_m ? 1U : 0U;
-  return alike >= needed;
-}
-
-}  // namespace
 
 void LoneReturns::take(const LaserScan& scan, const Pose2& now_from_before) noexcept {
   std::swap(now_, before_);

@@ -116,10 +116,6 @@ Coverage BlindGaps::at(Vec2 place) const noexcept {
   return dot(place, place) < gap.near_m * gap.near_m ? Coverage::kProven : gap.coverage;
 }
 
-Lookout::Lookout(const OfEach<Pose2>& robot_from_lasers) {
-  for (const Pose2& mount : robot_from_lasers) laser_from_robot_.emplace_back(inverse(mount));
-}
-
 Coverage Lookout::at(const OfEach<BlindGaps>& gaps, Vec2 place) const noexcept {
   Coverage best = Coverage::kUnwatched;
   for (std::size_t k = 0; k < laser_from_robot_.size() && best != Coverage::kProven; ++k)
@@ -150,10 +146,6 @@ Watch::Watch(const Footprint& footprint, const OfEach<Pose2>& robot_from_lasers,
     rim_.push_back({corners[k], normals[k] + normals[(k + 3) % 4]});
     along(corners[k], corners[(k + 1) % 4], normals[k]);
   }
-}
-
-double Watch::outward_mps(const RimPoint& rim, Vec2 moves) noexcept {
-  return std::max(moves.x * rim.outward.x, moves.y * rim.outward.y);
 }
 
 /// Whether a place lies within what the robot keeps free round itself.

@@ -81,7 +81,9 @@ class BlindGaps {
 /// alone.
 class Lookout {
  public:
-  explicit Lookout(const OfEach<Pose2>& robot_from_lasers);
+  explicit Lookout(const OfEach<Pose2>& robot_from_lasers) {
+    for (const Pose2& mount : robot_from_lasers) laser_from_robot_.emplace_back(inverse(mount));
+  }
   /// `gaps`: of each scanner.
   [[nodiscard]] Coverage at(const OfEach<BlindGaps>& gaps, Vec2 place) const noexcept;
 
@@ -129,7 +131,9 @@ class Watch {
     return {twist.v_mps - twist.w_radps * point.y, twist.w_radps * point.x};
   }
   /// The share of a point's velocity that pushes outward, m/s; a corner's is the greater of its two sides'.
-  [[nodiscard]] static double outward_mps(const RimPoint& rim, Vec2 moves) noexcept;
+  [[nodiscard]] static double outward_mps(const RimPoint& rim, Vec2 moves) noexcept {
+    return std::max(moves.x * rim.outward.x, moves.y * rim.outward.y);
+  }
   [[nodiscard]] bool held_free(Vec2 place) const noexcept;
 
   Footprint footprint_;

@@ -105,10 +105,6 @@ void Latency::add(Time now, Duration took, const WheelState& wheels, const Wheel
   response_.add(wheels, command);
 }
 
-MeasuredLatency Latency::measured() const noexcept {
-  return {to_seconds(std::max(worst_, worst_before_)), response_.seconds()};
-}
-
 bool ScanTiming::is_stale(const LaserScan& scan, Time now) noexcept {
   bool two_lost = false;
   if (scan.sequence != sequence_) {

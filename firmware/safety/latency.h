@@ -127,7 +127,9 @@ class Latency {
 
   /// At the end of a tick that began at `now` and took until its command was out.
   void add(Time now, Duration took, const WheelState& wheels, const WheelCommand& command) noexcept;
-  [[nodiscard]] MeasuredLatency measured() const noexcept;
+  [[nodiscard]] MeasuredLatency measured() const noexcept {
+    return {to_seconds(std::max(worst_, worst_before_)), response_.seconds()};
+  }
 
  private:
   static constexpr Duration kSpan = std::chrono::seconds(5);  ///< the worst tick counts for one to two of these

@@ -10,6 +10,7 @@
 
 namespace jaywalk {
 namespace {
+
 using Rules = StopZoneRules<double>;
 constexpr double kStep_m = SweptPath::kStep_m;
 
@@ -44,32 +45,51 @@ double farthest_corner_m(const Footprint& body, const LaserModel& of) {
   return farthest;
 }
 
+/// Fastest forward speed, m/s, from which the robot stops within `stop_m` metres while it turns at the model's rate.
+double speed_for_stop(const RobotModel& model, Duration tick, double stop_m) {
+  const double bt = model.limits.brake_mps2 * worst_reaction_s(model, tick);
+  const double rim_mps = std::sqrt(bt * bt + 2.0 * model.limits.brake_mps2 * std::max(stop_m, 0.0)) - bt;
+  return model.limits.max_speed_mps - (fastest_rim_mps(model) - rim_mps);
+}
+
+std::string lower_speed_to(double mps) {
+  std::array<char, 60> text{};
+  std::snprintf(text.data(), text.size(), "lower limits.max_speed_mps to %.2f", std::floor(100.0 * mps) / 100.0);
+  return mps >= 0.01 ? text.data() : "lower limits.max_speed_mps and max_turn_radps";
+}
+
+void require_in_reach(const RobotModel& model, const LaserModel& laser, Duration tick, const std::string& place) {
+  const double stop_m = longest_stop_m(model, tick);
+  const double reach_m = stop_m + StopZoneConfig{}.margin_m + farthest_corner_m(model.footprint, laser);
+  const double step_rad = laser.fov_rad / (laser.beams - 1);
+  const double seen_m = kPost_m / (2.0 * sin(std::min(0.5 * step_rad, 0.5 * kPi)));
+  std::array<char, 200> text{};
+  const auto refuse_beyond = [&](double limit_m, const char* why, const char* otherwise) {
+    if (reach_m <= limit_m) return;
+    std::snprintf(text.data(), text.size(), ": stopping takes %.1f m, up to %.1f m from the laser, and %s %.1f m",
+                  stop_m, reach_m, why, limit_m);
+    throw StartupError(place + text.data(),
+                       lower_speed_to(speed_for_stop(model, tick, stop_m - (reach_m - limit_m))) + kRemedy + otherwise);
+  };
+  refuse_beyond(laser.range_max_m, "its range is", "a laser that sees farther");
+  refuse_beyond(seen_m, "a post of 70 mm fits between two of its beams from", "a laser with more beams");
+  refuse_beyond(SweptPath::kLongest_m, "the stop zone ends at", "a slower robot");
+}
+
 }  // namespace
 
 StopZone::StopZone(const StopZoneConfig& config)
     : config_(config), rim_radius_m_(config.footprint.circumscribed_radius_m()) {}
-
-double StopZone::rim_speed_mps(const Twist2& twist) const noexcept {
-  return std::fabs(twist.v_mps) + std::fabs(twist.w_radps) * rim_radius_m_;
-}
 
 double StopZone::margin_at(double rim_mps) const noexcept {
   const double share = std::min(rim_mps / Rules::kFull_mps, 1.0);
   return config_.creep_margin_m + (config_.margin_m - config_.creep_margin_m) * share;
 }
 
-double StopZone::stopping_distance_m(double rim_mps, double reaction_s) const noexcept {
-  return rim_mps * reaction_s + rim_mps * rim_mps / (2.0 * config_.brake_mps2);
-}
-
 double StopZone::speed_to_stop_within(double gap_m, double reaction_s) const noexcept {
   if (!(gap_m > 0.0)) return 0.0;
   const double bt = config_.brake_mps2 * reaction_s;
   return std::sqrt(bt * bt + 2.0 * config_.brake_mps2 * gap_m) - bt;
-}
-
-const Pose2& StopZone::mount_of(const LaserScan& scan) const noexcept {
-  return scan.scanner == 0 ? config_.robot_from_laser : config_.robot_from_others[scan.scanner - 1U];
 }
 
 double StopZone::gap_m(const OfEach<LaserScan>& scans, const Twist2& twist,
@@ -166,40 +186,6 @@ StopZoneConfig stop_zone_for(const RobotModel& model, Duration tick) noexcept {
           .look_ahead_m = std::min(longest_stop_m(model, tick), SweptPath::kLongest_m),
           .robot_from_others = others};
 }
-
-namespace {
-/// Fastest forward speed, m/s, from which the robot stops within `stop_m` metres while it turns at the model's rate.
-double speed_for_stop(const RobotModel& model, Duration tick, double stop_m) {
-  const double bt = model.limits.brake_mps2 * worst_reaction_s(model, tick);
-  const double rim_mps = std::sqrt(bt * bt + 2.0 * model.limits.brake_mps2 * std::max(stop_m, 0.0)) - bt;
-  return model.limits.max_speed_mps - (fastest_rim_mps(model) - rim_mps);
-}
-
-std::string lower_speed_to(double mps) {
-  std::array<char, 60> text{};
-  std::snprintf(text.data(), text.size(), "lower limits.max_speed_mps to %.2f", std::floor(100.0 * mps) / 100.0);
-  return mps >= 0.01 ? text.data() : "lower limits.max_speed_mps and max_turn_radps";
-}
-
-void require_in_reach(const RobotModel& model, const LaserModel& laser, Duration tick, const std::string& place) {
-  const double stop_m = longest_stop_m(model, tick);
-  const double reach_m = stop_m + StopZoneConfig{}.margin_m + farthest_corner_m(model.footprint, laser);
-  const double step_rad = laser.fov_rad / (laser.beams - 1);
-  const double seen_m = kPost_m / (2.0 * sin(std::min(0.5 * step_rad, 0.5 * kPi)));
-  std::array<char, 200> text{};
-  const auto refuse_beyond = [&](double limit_m, const char* why, const char* otherwise) {
-    if (reach_m <= limit_m) return;
-    std::snprintf(text.data(), text.size(), ": stopping takes %.1f m, up to %.1f m from the laser, and %s %.1f m",
-                  stop_m, reach_m, why, limit_m);
-    throw StartupError(place + text.data(),
-                       lower_speed_to(speed_for_stop(model, tick, stop_m - (reach_m - limit_m))) + kRemedy + otherwise);
-  };
-  refuse_beyond(laser.range_max_m, "its range is", "a laser that sees farther");
-  refuse_beyond(seen_m, "a post of 70 mm fits between two of its beams from", "a laser with more beams");
-  refuse_beyond(SweptPath::kLongest_m, "the stop zone ends at", "a slower robot");
-}
-
-}  // namespace
 
 void require_zone_in_reach(const RobotModel& model, Duration tick, const std::string& place) {
   for (const LaserModel& laser : model.lasers()) require_in_reach(model, laser, tick, place);

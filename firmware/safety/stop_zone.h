@@ -95,14 +95,20 @@ class StopZone {
   [[nodiscard]] double margin_at(double rim_mps) const noexcept;
   [[nodiscard]] OfEach<Pose2> mounts() const noexcept { return {config_.robot_from_laser, config_.robot_from_others}; }
   /// Speed of the fastest-moving part of the footprint, m/s.
-  [[nodiscard]] double rim_speed_mps(const Twist2& twist) const noexcept;
+  [[nodiscard]] double rim_speed_mps(const Twist2& twist) const noexcept {
+    return std::fabs(twist.v_mps) + std::fabs(twist.w_radps) * rim_radius_m_;
+  }
   /// How far the rim goes from this speed until the robot stands: v t + v^2 / (2 b), t the reaction time.
-  [[nodiscard]] double stopping_distance_m(double rim_mps, double reaction_s) const noexcept;
+  [[nodiscard]] double stopping_distance_m(double rim_mps, double reaction_s) const noexcept {
+    return rim_mps * reaction_s + rim_mps * rim_mps / (2.0 * config_.brake_mps2);
+  }
   /// The fastest rim speed from which the robot still stops within `gap_m`.
   [[nodiscard]] double speed_to_stop_within(double gap_m, double reaction_s) const noexcept;
 
  private:
-  [[nodiscard]] const Pose2& mount_of(const LaserScan& scan) const noexcept;
+  [[nodiscard]] const Pose2& mount_of(const LaserScan& scan) const noexcept {
+    return scan.scanner == 0 ? config_.robot_from_laser : config_.robot_from_others[scan.scanner - 1U];
+  }
   /// How far the rim goes before the footprint meets `point` (in the robot's frame); +infinity beyond `most_m`.
   [[nodiscard]] double way_to(Vec2 point, const SweptPath& path, double margin_m, double most_m) const noexcept;
 

@@ -2,8 +2,11 @@
 
 #include <cmath>
 
+#include "firmware/safety/reasons.h"
+
 namespace jaywalk {
 namespace {
+
 Reason reason_for(DriveTrouble trouble) {
   if (trouble == DriveTrouble::kNone) return Reason::kNone;
   if (trouble == DriveTrouble::kForeignMaster) return Reason::kForeignMaster;
@@ -48,10 +51,6 @@ Supervisor::Supervisor(const SupervisorConfig& config)
                          WheelProof(config.model, scanners_.size())});
     gaps_.emplace_back(laser);
   }
-}
-
-bool Supervisor::takes_wishes() const noexcept {
-  return mode_ != Mode::kOff && mode_ != Mode::kStandby && mode_ != Mode::kLatched;
 }
 
 Verdict Supervisor::judge(const Twist2& wanted, const SafetyInput& input) noexcept {
@@ -205,10 +204,6 @@ bool Supervisor::touched(const OfEach<LaserScan>& scans) const noexcept {
   return beams > 0;
 }
 
-double Supervisor::reaction_s(const SafetyInput& input) const noexcept {
-  return jaywalk::reaction_s(input.scans, config_.model, input.now, config_.tick, input.latency);
-}
-
 /// Slowly where no laser ever looks: each part of the body that goes there.
 double Supervisor::watched_share(const Twist2& twist, double reaction_s) const noexcept {
   const double rim_mps = stop_zone_.rim_speed_mps(twist);
@@ -239,6 +234,28 @@ Twist2 Supervisor::braked(const Twist2& target) const noexcept {
   const double v = v_before > 0.0 ? std::max(v_before - fastest_drop, 0.0) : std::min(v_before + fastest_drop, 0.0);
   const double curvature = permitted_.w_radps / v_before;
   return {v, curvature * v};  // the arc that the stop zone looked along
+}
+
+Reason reason_named(std::string_view name) noexcept {
+  Reason named = Reason::kNone;
+  for (const ReasonRow& row : kReasons)
+    if (row.name == name) named = row.reason;
+  return named;
+}
+
+std::string to_string(Reason reasons) {
+  std::string words;
+  for (const ReasonRow& row : kReasons)
+    if (has(reasons, row.reason)) words += (words.empty() ? "" : "|") + std::string(row.name);
+  return words;
+}
+
+std::string to_string(Reason reasons, std::uint8_t faulty_scanners) {
+  std::string words = to_string(reasons);
+  for (int number = 1, left = faulty_scanners; left != 0; ++number, left >>= 1) {
+    if ((left & 1) != 0) words += (words.empty() ? "scanner_" : "|scanner_") + std::to_string(number);
+  }
+  return words;
 }
 
 }  // namespace jaywalk

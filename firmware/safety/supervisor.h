@@ -133,7 +133,9 @@ class Supervisor {
   /// UnseenWalls' of the last tick: motion does well to keep off them, too.
   [[nodiscard]] std::span<const Vec2> unseen_walls() const noexcept { return unseen_walls_.points(); }
   /// False while an earlier fault waits for its reset, or the drives for their proof: ask for nothing until then.
-  [[nodiscard]] bool takes_wishes() const noexcept;
+  [[nodiscard]] bool takes_wishes() const noexcept {
+    return mode_ != Mode::kOff && mode_ != Mode::kStandby && mode_ != Mode::kLatched;
+  }
 
  private:
   [[nodiscard]] Reason faults(const Twist2& wanted, const SafetyInput& input) noexcept;
@@ -153,7 +155,9 @@ class Supervisor {
   [[nodiscard]] bool has_blanked() const noexcept {
     return std::any_of(gaps_.begin(), gaps_.end(), [](const BlindGaps& gaps) { return gaps.has_blanked(); });
   }
-  [[nodiscard]] double reaction_s(const SafetyInput& input) const noexcept;
+  [[nodiscard]] double reaction_s(const SafetyInput& input) const noexcept {
+    return jaywalk::reaction_s(input.scans, config_.model, input.now, config_.tick, input.latency);
+  }
   [[nodiscard]] double watched_share(const Twist2& twist, double reaction_s) const noexcept;
   [[nodiscard]] double proven_share(const Twist2& twist, double reaction_s) noexcept;
   [[nodiscard]] Twist2 braked(const Twist2& target) const noexcept;

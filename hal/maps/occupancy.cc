@@ -1,5 +1,3 @@
-#include "hal/maps/occupancy.h"
-
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>

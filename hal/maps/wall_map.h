@@ -69,7 +69,7 @@ struct WallMap {
 inline constexpr std::int32_t kMostRasterCells = 10'000;
 /// ROS map_server: YAML with image, resolution, origin, negate, occupied_thresh, free_thresh, mode. A cell is a
 /// wall when its occupancy exceeds occupied_thresh; unknown cells are not walls. What has more cells a side than
-/// `most_cells` is read in larger ones (occupancy.h).
+/// `most_cells` is read in larger ones (read_raster).
 [[nodiscard]] WallMap load_raster_map(const std::filesystem::path& yaml_file,
                                       std::int32_t most_cells = kMostRasterCells);
 /// The same without the walls' edges.

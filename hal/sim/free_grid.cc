@@ -69,10 +69,6 @@ std::int32_t FreeGrid::index_of(Vec2 p) const noexcept {
   return static_cast<std::int32_t>(row) * columns_ + static_cast<std::int32_t>(column);
 }
 
-Vec2 FreeGrid::centre_of(std::int32_t index) const noexcept {
-  return low_ + Vec2{index % columns_ + 0.5, index / columns_ + 0.5} * cell_m_;
-}
-
 bool FreeGrid::free(Vec2 p) const noexcept {
   const std::int32_t index = index_of(p);
   return index != kOutside && state(index) != 0;
@@ -195,10 +191,6 @@ std::array<WallSegment, 4> RobotBody::edges() const noexcept {
   const Vec2 rear_right = map_from_body * Vec2{-f.rear_m, -f.half_width_m};
   const Vec2 front_right = map_from_body * Vec2{f.front_m, -f.half_width_m};
   return {{{front_left, rear_left}, {rear_left, rear_right}, {rear_right, front_right}, {front_right, front_left}}};
-}
-
-double RobotBody::gap(const Disc& disc) const noexcept {
-  return std::max(footprint.distance_to(inverse(map_from_robot) * disc.centre) - disc.radius_m, 0.0);
 }
 
 bool RobotBody::in(const Zone& zone) const noexcept {

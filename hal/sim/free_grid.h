@@ -30,7 +30,9 @@ class FreeGrid {
   static constexpr std::uint8_t kFree = 1, kReached = 2;
 
   [[nodiscard]] std::int32_t index_of(Vec2 p) const noexcept;
-  [[nodiscard]] Vec2 centre_of(std::int32_t index) const noexcept;
+  [[nodiscard]] Vec2 centre_of(std::int32_t index) const noexcept {
+    return low_ + Vec2{index % columns_ + 0.5, index / columns_ + 0.5} * cell_m_;
+  }
   [[nodiscard]] std::uint8_t state(std::int32_t index) const noexcept {
     return state_[static_cast<std::size_t>(index)];
   }
@@ -68,7 +70,9 @@ struct RobotBody {
 
   [[nodiscard]] std::array<WallSegment, 4> edges() const noexcept;
   /// Gap (m) between the footprint and a disc; 0 when they touch.
-  [[nodiscard]] double gap(const Disc& disc) const noexcept;
+  [[nodiscard]] double gap(const Disc& disc) const noexcept {
+    return std::max(footprint.distance_to(inverse(map_from_robot) * disc.centre) - disc.radius_m, 0.0);
+  }
   [[nodiscard]] bool in(const Zone& zone) const noexcept;
 };
 

@@ -1,7 +1,6 @@
 #pragma once
 // Simulated movers: those of the paper, which walk straight ahead and turn in place, and recorded ones.
 #include <cstdint>
-#include <filesystem>
 #include <span>
 #include <vector>
 

@@ -87,10 +87,6 @@ void LaserSim::sweep(const Walls& walls, std::span<const Disc> movers, const Pos
   write(now, Duration{0}, scan);
 }
 
-Duration LaserSim::turn_takes() const noexcept {
-  return duration_from_seconds(model_.fov_rad / (2.0 * kPi) / model_.rate_hz);
-}
-
 bool LaserSim::turn(const Walls& walls, std::span<const Disc> movers, const Pose2& map_from_robot, Time now,
                     LaserScan& scan) noexcept {
   if (measured_ == range_.size()) return false;

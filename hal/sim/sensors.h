@@ -29,7 +29,9 @@ class LaserSim {
              LaserScan& scan) noexcept;
 
   /// From the first beam to the last of a scanner that turns.
-  [[nodiscard]] Duration turn_takes() const noexcept;
+  [[nodiscard]] Duration turn_takes() const noexcept {
+    return duration_from_seconds(model_.fov_rad / (2.0 * kPi) / model_.rate_hz);
+  }
   /// Begins a turn: forgets what was measured.
   void begin_turn(Time now) noexcept { began_ = now, measured_ = 0; }
   /// Measures the beams whose time has come, from where the robot stands now. With the last it writes the scan, stamped

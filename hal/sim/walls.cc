@@ -100,10 +100,6 @@ void Walls::size_buckets() {
   rows_ = static_cast<std::int32_t>(size.y / bucket_m_) + 1;
 }
 
-Vec2 Walls::bucket_centre(std::int32_t bucket) const noexcept {
-  return bounds_.low + Vec2{bucket % columns_ + 0.5, bucket / columns_ + 0.5} * bucket_m_;
-}
-
 /// Counts, then places: the items of one bucket lie side by side. An item belongs to every bucket that it may touch.
 void Walls::fill_buckets() {
   const double half_diagonal = bucket_m_ * 0.70710678118654757;

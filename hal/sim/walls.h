@@ -53,7 +53,9 @@ class Walls {
   [[nodiscard]] bool solid_at(Vec2 p) const noexcept;
   void size_buckets();
   void fill_buckets();
-  [[nodiscard]] Vec2 bucket_centre(std::int32_t bucket) const noexcept;
+  [[nodiscard]] Vec2 bucket_centre(std::int32_t bucket) const noexcept {
+    return bounds_.low + Vec2{bucket % columns_ + 0.5, bucket / columns_ + 0.5} * bucket_m_;
+  }
 
   template <class Visit>
   void visit_bucket(std::int32_t bucket, Visit& visit) const {

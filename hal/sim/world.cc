@@ -119,10 +119,6 @@ double World::outline_mps() const noexcept {
                turn * std::max(footprint_.front_m, footprint_.rear_m)});
 }
 
-double World::gap_to_solid_mover() const noexcept {
-  return std::min(gap_to(wanderers_.movers()), gap_to(social_.movers()));
-}
-
 /// Walls, wandering and social movers stop the robot. The outline moves at most as far as the middle plus the turn
 /// times the outermost point's radius; until that has used up the last exact gap there is nothing to check.
 void World::keep_out_of_solids(const Pose2& before) noexcept {

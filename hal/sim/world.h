@@ -65,7 +65,9 @@ class World {
   void carry_robot() noexcept;
   void keep_out_of_solids(const Pose2& before) noexcept;
   /// Gap (m) to the nearest mover that stops the robot.
-  [[nodiscard]] double gap_to_solid_mover() const noexcept;
+  [[nodiscard]] double gap_to_solid_mover() const noexcept {
+    return std::min(gap_to(wanderers_.movers()), gap_to(social_.movers()));
+  }
   void gather_movers() noexcept;
   void move_movers() noexcept;
   void see_movers() noexcept;

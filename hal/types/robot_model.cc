@@ -15,6 +15,15 @@ double turn_between(double from_rad, double to_rad) {
   return turn < 0.0 ? turn + 2.0 * kPi : turn;
 }
 
+/// Of a corner: by its end of the body.
+const char* side_of(const Footprint& body, Vec2 mount) {
+  const double half_length_m = 0.5 * (body.front_m + body.rear_m);
+  const double ahead = (mount.x - (body.front_m - half_length_m)) / half_length_m;
+  const double left = mount.y / body.half_width_m;
+  if (std::fabs(ahead) < 0.5 * std::fabs(left)) return left > 0.0 ? "left" : "right";
+  return ahead < 0.0 ? "rear" : "front";
+}
+
 }  // namespace
 
 double BlankedSector::width_rad() const noexcept { return turn_between(from_rad, to_rad); }
@@ -38,15 +47,11 @@ void blank(const Blanking& sectors, LaserScan& scan) noexcept {
 
 double Footprint::inscribed_radius_m() const { return std::min({front_m, rear_m, half_width_m}); }
 
-double Footprint::circumscribed_radius_m() const { return norm({std::max(front_m, rear_m), half_width_m}); }
-
 double Footprint::distance_to(Vec2 p) const {
   const double beyond_x = std::max({p.x - front_m, -rear_m - p.x, 0.0});
   const double beyond_y = std::max(std::fabs(p.y) - half_width_m, 0.0);
   return norm({beyond_x, beyond_y});
 }
-
-double DriveTimes::oldest_report_s() const { return 2.0 * report_s + std::max(late_s, 0.5 * report_s); }
 
 double DriveTimes::obeyed_within_s() const {
   constexpr double kTickAndBus_s = 0.13;  // two ticks of 20 Hz and a frame that waits for others
@@ -58,19 +63,6 @@ double DriveTimes::slower_s(double tick_s) const {
   return std::max(response_s - usual.response_s, 0.0) + std::max(report_s - std::max(usual.report_s, tick_s), 0.0) +
          late_s;
 }
-
-namespace {
-
-/// Of a corner: by its end of the body.
-const char* side_of(const Footprint& body, Vec2 mount) {
-  const double half_length_m = 0.5 * (body.front_m + body.rear_m);
-  const double ahead = (mount.x - (body.front_m - half_length_m)) / half_length_m;
-  const double left = mount.y / body.half_width_m;
-  if (std::fabs(ahead) < 0.5 * std::fabs(left)) return left > 0.0 ? "left" : "right";
-  return ahead < 0.0 ? "rear" : "front";
-}
-
-}  // namespace
 
 std::string scanner_name(const RobotModel& model, std::size_t scanner) {
   if (model.other_lasers.empty()) return "";

@@ -55,7 +55,7 @@ struct Footprint {
   /// Largest circle about the axle's middle that fits inside.
   [[nodiscard]] double inscribed_radius_m() const;
   /// Smallest circle about the axle's middle that holds it.
-  [[nodiscard]] double circumscribed_radius_m() const;
+  [[nodiscard]] double circumscribed_radius_m() const { return norm({std::max(front_m, rear_m), half_width_m}); }
   /// Distance (m) from a point in the robot's frame to the rectangle; 0 inside.
   [[nodiscard]] double distance_to(Vec2 p_in_robot) const;
 };
@@ -67,7 +67,7 @@ struct DriveTimes {
   double response_s = 0.05;  ///< from a command until the wheels turn so, ramps apart
 
   /// Age (s) up to which the newest report is no fault: one may be lost, and the next one late.
-  [[nodiscard]] double oldest_report_s() const;
+  [[nodiscard]] double oldest_report_s() const { return 2.0 * report_s + std::max(late_s, 0.5 * report_s); }
   /// Longest time from a command until a sound drive's newest report shows it obeyed, ramps apart, s.
   [[nodiscard]] double obeyed_within_s() const;
   /// Time (s) by which that is longer than of a drive that reports and obeys as usual, in a loop of period `tick_s`.

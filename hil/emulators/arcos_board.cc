@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "drivers/can/byte_bus.h"
+#include "drivers/can/can_bus.h"
 #include "hal/types/trig.h"
 #include "hil/emulators/motor_node.h"
 

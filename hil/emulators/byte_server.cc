@@ -57,8 +57,6 @@ void ByteServer::drop_peer() noexcept {
   peer_ = wire::FileDescriptor();
 }
 
-TcpServer::TcpServer(std::uint16_t port) : port_(port) { listen(); }
-
 void TcpServer::listen() {
   wire::FileDescriptor made(::socket(AF_INET, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
   const int on = 1;
@@ -99,8 +97,6 @@ void TcpServer::set_present(bool present) {
   listener_ = wire::FileDescriptor();
 }
 
-PtyServer::PtyServer(std::string path) : path_(std::move(path)) { plug_in(); }
-
 PtyServer::~PtyServer() {
   std::error_code ignored;
   std::filesystem::remove(path_, ignored);
@@ -126,8 +122,6 @@ void PtyServer::plug_in() {
   fresh_ = std::move(mine);
   other_ = std::move(theirs);
 }
-
-wire::FileDescriptor PtyServer::accept() noexcept { return std::exchange(fresh_, wire::FileDescriptor()); }
 
 void PtyServer::set_present(bool present) {
   if (present == (other_.get() >= 0)) return;

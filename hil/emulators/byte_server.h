@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "drivers/can/byte_bus.h"
+#include "drivers/can/can_bus.h"
 #include "drivers/wire/byte_reader.h"
 #include "drivers/wire/file_descriptor.h"
 
@@ -49,7 +49,7 @@ class ByteServer {
 class TcpServer final : public ByteServer {
  public:
   /// 0 takes any free port. Throws StartupError where the port is taken.
-  explicit TcpServer(std::uint16_t port);
+  explicit TcpServer(std::uint16_t port) : port_(port) { listen(); }
   [[nodiscard]] std::uint16_t port() const noexcept { return port_; }
   void set_present(bool present) override;
 
@@ -68,13 +68,13 @@ class TcpServer final : public ByteServer {
 class PtyServer final : public ByteServer {
  public:
   /// Replaces the link `path`. Throws StartupError where this machine has no pseudo terminals.
-  explicit PtyServer(std::string path);
+  explicit PtyServer(std::string path) : path_(std::move(path)) { plug_in(); }
   ~PtyServer() override;
   [[nodiscard]] const std::string& path() const noexcept { return path_; }
   void set_present(bool present) override;
 
  private:
-  wire::FileDescriptor accept() noexcept override;
+  wire::FileDescriptor accept() noexcept override { return std::exchange(fresh_, wire::FileDescriptor()); }
   void before_drop(int) noexcept override {}
   [[nodiscard]] bool waits_for_peer() const noexcept override { return false; }
   void plug_in();

@@ -234,10 +234,6 @@ void Cia402Node::say_heartbeat(Time now) noexcept {
   send(0x700U + node_, static_cast<std::uint64_t>(network_), heartbeat_size_);
 }
 
-void Cia402Node::send_emergency(std::uint16_t error_code) noexcept {
-  if (network_ != Network::kStopped) send(0x080U + node_, error_code, 8);
-}
-
 void Cia402Node::send(std::uint32_t id, std::uint64_t word, std::uint8_t size) noexcept {
   CanFrame frame;
   frame.id = id;

@@ -70,7 +70,9 @@ class Cia402Node : public MotorNode {
   void move(double seconds) noexcept;
   void say_heartbeat(Time now) noexcept;
   void send(std::uint32_t id, std::uint64_t word, std::uint8_t size) noexcept;
-  void send_emergency(std::uint16_t error_code) noexcept;
+  void send_emergency(std::uint16_t error_code) noexcept {
+    if (network_ != Network::kStopped) send(0x080U + node_, error_code, 8);
+  }
   [[nodiscard]] std::uint16_t statusword() const noexcept;
 
   DriveObjects objects_;

@@ -83,10 +83,6 @@ std::uint32_t DriveObjects::value(ObjectAddress address) const noexcept {
   return 0;
 }
 
-void DriveObjects::set(ObjectAddress address, std::uint32_t value) noexcept {
-  if (Object* const object = find(address)) object->value = value;
-}
-
 void DriveObjects::lack(ObjectAddress address) noexcept {
   for (std::size_t i = 0; i < objects_.size(); ++i)
     if (objects_[i].address == address) return objects_.swap_remove(i);
@@ -99,19 +95,11 @@ void DriveObjects::fix(ObjectAddress address, std::uint32_t value) noexcept {
   }
 }
 
-void DriveObjects::lie_about(ObjectAddress address) noexcept {
-  if (Object* const object = find(address)) object->lies = true;
-}
-
 void DriveObjects::know_no_remote_frames(bool strict) noexcept {
   keeps_bit_30_ = true;
   wants_bit_30_ = strict;
   for (Object& object : objects_)
     if (is_transmit_id(object.address) && !strict) object.value = object.stored = object.value | kNoRemoteFrames;
-}
-
-void DriveObjects::store() noexcept {
-  for (Object& object : objects_) object.stored = object.value;
 }
 
 void DriveObjects::restore(bool all) noexcept {

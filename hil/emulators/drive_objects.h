@@ -17,7 +17,9 @@ class DriveObjects {
   /// 0 for what is not there.
   [[nodiscard]] std::uint32_t value(canopen::ObjectAddress address) const noexcept;
   /// What the drive itself does; nothing happens for what is not there.
-  void set(canopen::ObjectAddress address, std::uint32_t value) noexcept;
+  void set(canopen::ObjectAddress address, std::uint32_t value) noexcept {
+    if (Object* const object = find(address)) object->value = value;
+  }
   /// The answer to an SDO request addressed to `node`; nothing where `frame` is none.
   [[nodiscard]] std::optional<CanFrame> answer(std::uint8_t node, const CanFrame& frame) noexcept;
 
@@ -26,7 +28,9 @@ class DriveObjects {
   /// From now on it is read-only and holds this.
   void fix(canopen::ObjectAddress address, std::uint32_t value) noexcept;
   /// From now on writes are acknowledged and change nothing.
-  void lie_about(canopen::ObjectAddress address) noexcept;
+  void lie_about(canopen::ObjectAddress address) noexcept {
+    if (Object* const object = find(address)) object->lies = true;
+  }
   /// Makes its TPDOs answer no remote frames: bit 30 of their COB-IDs stays set whatever is written; `strict`: a write
   /// without it is refused.
   void know_no_remote_frames(bool strict) noexcept;
@@ -34,7 +38,9 @@ class DriveObjects {
   void answer_short() noexcept { short_ = true; }
 
   /// What it holds now is what a restart brings back (1010h).
-  void store() noexcept;
+  void store() noexcept {
+    for (Object& object : objects_) object.stored = object.value;
+  }
   /// Power lost, or NMT reset: what was not stored is forgotten; of communication (1000h to 1FFFh) alone, or all.
   void restore(bool all) noexcept;
 

@@ -17,10 +17,6 @@ ScannerServer::ScannerServer(std::unique_ptr<ByteServer> wire, const SweepShape&
       range_m_(shape.beams),
       says_m_(shape.beams, kMeasures) {}
 
-void ScannerServer::lose_beams(std::size_t first, std::size_t count, float says_m) {
-  for (std::size_t k = first; k < std::min(first + count, says_m_.size()); ++k) says_m_[k] = says_m;
-}
-
 void ScannerServer::lose_sector(double from_rad, double to_rad, float says_m) {
   constexpr double kSame_rad = 1e-9;
   const BlankedSector sector{from_rad, to_rad};
@@ -70,8 +66,6 @@ void ScannerServer::serve_peer() {
   if (!bytes.empty() && fault_ != ScannerFault::kSilence) on_bytes(bytes);
 }
 
-void ScannerServer::answer(wire::Bytes bytes) { wire_->write(bytes); }
-
 void ScannerServer::measure(Time now) {
   const Duration period = duration_from_seconds(1.0 / shape_.rate_hz);
   const bool paused = began_ == kNever || now - began_ >= 2 * period;
@@ -95,12 +89,12 @@ void ScannerServer::measure_until_now(Time now) {
 
 void ScannerServer::tell_measured(Time now) {
   for (; told_ + beams_per_message_ <= measured_; told_ += beams_per_message_) {
-    const std::span<const float> part = std::span<const float>(range_m_).subspan(told_, beams_per_message_);
+    const Ranges part = Ranges(range_m_).subspan(told_, beams_per_message_);
     if (streaming_) send(message_of(told_, part, began_, now), now);
   }
 }
 
-void ScannerServer::send(std::vector<std::uint8_t> message, Time now) {
+void ScannerServer::send(Message message, Time now) {
   if (noise() < 256.0 * damaged_share_) message[message.size() / 2] ^= 0x5AU;
   switch (fault_) {
     case ScannerFault::kSilence:

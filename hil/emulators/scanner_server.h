@@ -85,7 +85,9 @@ class ScannerServer {
 
   /// Makes these beams, or those that look into a sector (rad, counter-clockwise), measure nothing from now on and say
   /// `says_m` (World): infinity as a dead diode may. What else was lost stays so.
-  void lose_beams(std::size_t first, std::size_t count, float says_m = 0.0F);
+  void lose_beams(std::size_t first, std::size_t count, float says_m = 0.0F) {
+    for (std::size_t k = first; k < std::min(first + count, says_m_.size()); ++k) says_m_[k] = says_m;
+  }
   void lose_sector(double from_rad, double to_rad, float says_m = 0.0F);
   void find_beams() noexcept { says_m_.assign(says_m_.size(), kMeasures); }
   /// From now on each message is damaged with this probability, 0 to 1.
@@ -101,15 +103,17 @@ class ScannerServer {
   [[nodiscard]] bool is_streaming() const noexcept { return streaming_; }
 
  protected:
+  using Message = std::vector<std::uint8_t>;
+  using Ranges = std::span<const float>;
+
   /// A peer connected: what the one before had set for its connection is forgotten.
-  virtual void on_new_peer() = 0;
-  virtual void on_bytes(wire::Bytes bytes) = 0;
+  virtual void on_new_peer() {}
+  virtual void on_bytes(wire::Bytes) {}
   /// The beams from `first_beam` on, just measured, as a message. `began` is when the sweep's first was.
-  [[nodiscard]] virtual std::vector<std::uint8_t> message_of(std::size_t first_beam, std::span<const float> range_m,
-                                                             Time began, Time now) = 0;
+  [[nodiscard]] virtual Message message_of(std::size_t first_beam, Ranges range_m, Time began, Time now) = 0;
 
   void set_streaming(bool on) noexcept { streaming_ = on; }
-  void answer(wire::Bytes bytes);
+  void answer(wire::Bytes bytes) { wire_->write(bytes); }
 
  private:
   void end_fault(Time now);
@@ -117,7 +121,7 @@ class ScannerServer {
   void measure(Time now);
   void measure_until_now(Time now);
   void tell_measured(Time now);
-  void send(std::vector<std::uint8_t> message, Time now);
+  void send(Message message, Time now);
   [[nodiscard]] std::uint8_t noise() noexcept {
     return static_cast<std::uint8_t>((noise_ = noise_ * 1664525U + 1013904223U) >> 24U);
   }
@@ -125,7 +129,7 @@ class ScannerServer {
 
   struct Held {
     Time due = kNever;
-    std::vector<std::uint8_t> message;
+    Message message;
   };
 
   std::unique_ptr<ByteServer> wire_;

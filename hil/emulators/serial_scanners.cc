@@ -54,7 +54,7 @@ std::uint16_t check(const std::vector<std::uint8_t>& bytes) {
 LdServer::LdServer(std::unique_ptr<ByteServer> wire, World world)
     : ScannerServer(std::move(wire), whole_turn(kBeams), kPacketPoints, std::move(world)) {}
 
-std::vector<std::uint8_t> LdServer::message_of(std::size_t first_beam, std::span<const float> range_m, Time, Time now) {
+ScannerServer::Message LdServer::message_of(std::size_t first_beam, Ranges range_m, Time, Time now) {
   std::vector<std::uint8_t> packet{0x54, 0x2C};
   const auto word = [&packet](double value) {
     const auto number = static_cast<std::uint16_t>(value);
@@ -105,8 +105,7 @@ void RplidarServer::obey(std::uint8_t command) {
   }
 }
 
-std::vector<std::uint8_t> RplidarServer::message_of(std::size_t first_beam, std::span<const float> range_m, Time,
-                                                    Time) {
+ScannerServer::Message RplidarServer::message_of(std::size_t first_beam, Ranges range_m, Time, Time) {
   std::vector<std::uint8_t> message;
   for (std::size_t k = 0; k < range_m.size(); ++k) {
     const auto angle_q6 = first_q6_ + static_cast<unsigned>(first_beam + k) * 64U;  // a degree a point
@@ -158,7 +157,7 @@ std::vector<std::uint8_t> Lms200Server::framed(std::span<const std::uint8_t> bod
   return made;
 }
 
-std::vector<std::uint8_t> Lms200Server::message_of(std::size_t, std::span<const float> range_m, Time, Time) {
+ScannerServer::Message Lms200Server::message_of(std::size_t, Ranges range_m, Time, Time) {
   std::vector<std::uint8_t> body{0xB0, kFanBeams, 0x00};
   for (const float m : range_m) {
     constexpr unsigned kBeyond = 8183, kDazzled = 8190;

@@ -15,9 +15,7 @@ class LdServer final : public ScannerServer {
 
  private:
   void on_new_peer() override { set_streaming(true); }
-  void on_bytes(wire::Bytes) override {}
-  std::vector<std::uint8_t> message_of(std::size_t first_beam, std::span<const float> range_m, Time began,
-                                       Time now) override;
+  Message message_of(std::size_t first_beam, Ranges range_m, Time began, Time now) override;
 };
 
 /// An RPLIDAR A2: ten turns a second of 360 points, clockwise. It hears stop, scan, health and the motor's speed, and
@@ -32,10 +30,8 @@ class RplidarServer final : public ScannerServer {
   void begin_turns_at(double angle_deg) noexcept { first_q6_ = static_cast<unsigned>(64.0 * angle_deg); }
 
  private:
-  void on_new_peer() override {}
   void on_bytes(wire::Bytes bytes) override;
-  std::vector<std::uint8_t> message_of(std::size_t first_beam, std::span<const float> range_m, Time began,
-                                       Time now) override;
+  Message message_of(std::size_t first_beam, Ranges range_m, Time began, Time now) override;
   void obey(std::uint8_t command);
 
   std::vector<std::uint8_t> came_in_;
@@ -55,10 +51,8 @@ class Lms200Server final : public ScannerServer {
   [[nodiscard]] bool set_window(Window window) override;
 
  private:
-  void on_new_peer() override {}
   void on_bytes(wire::Bytes bytes) override;
-  std::vector<std::uint8_t> message_of(std::size_t first_beam, std::span<const float> range_m, Time began,
-                                       Time now) override;
+  Message message_of(std::size_t first_beam, Ranges range_m, Time began, Time now) override;
   [[nodiscard]] std::vector<std::uint8_t> framed(std::span<const std::uint8_t> body) const;
 
   std::vector<std::uint8_t> came_in_;

@@ -7,11 +7,9 @@
 #include "hal/types/errors.h"
 #include "hil/emulators/arcos_board.h"
 #include "hil/emulators/cia402_node.h"
-#include "hil/emulators/odrive_node.h"
-#include "hil/emulators/scip_server.h"
+#include "hil/emulators/motor_node.h"
+#include "hil/emulators/network_scanners.h"
 #include "hil/emulators/serial_scanners.h"
-#include "hil/emulators/sick_server.h"
-#include "hil/emulators/vesc_node.h"
 
 namespace jaywalk::rig {
 namespace {

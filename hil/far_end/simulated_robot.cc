@@ -1,6 +1,5 @@
 #include "hil/far_end/simulated_robot.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -19,6 +18,32 @@ LaserModel laser_of(const sim::Scenario& scenario, const RobotFile& wiring, std:
   if (index == 0) laser.robot_from_laser = scenario.truth.robot_from_laser.value_or(laser.robot_from_laser);
   laser.noise_m = scenario.model.laser.noise_m;
   return laser;
+}
+
+constexpr std::size_t kMostMessages = 100'000;
+
+/// The file with the ports that the scanners' wires really have.
+RobotFile with_ports(RobotFile file, const FarWires& wires) {
+  for (std::size_t k = 0; k < wires.size(); ++k) {
+    LaserWiring& laser = k == 0 ? file.laser : file.other_lasers[k - 1];
+    if (const auto* const network = dynamic_cast<const emulators::TcpServer*>(wires[k].get()))
+      laser.port = network->port();
+  }
+  return file;
+}
+
+/// At any port that is free where it is one; the file is told.
+std::unique_ptr<emulators::ServedBytes> make_far_line(ByteWiring& line, Clock& clock) {
+  line.port = 0;
+  auto wire = make_far_wire(line);
+  if (const auto* const network = dynamic_cast<const emulators::TcpServer*>(wire.get())) line.port = network->port();
+  return std::make_unique<emulators::ServedBytes>(std::move(wire), clock);
+}
+
+std::vector<std::unique_ptr<ScannerConnection>> make_lasers(const RobotFile& file, Clock& clock) {
+  std::vector<std::unique_ptr<ScannerConnection>> lasers;
+  for (std::size_t k = 0; k < file.lasers().size(); ++k) lasers.push_back(make_laser(file, clock, k));
+  return lasers;
 }
 
 }  // namespace
@@ -70,10 +95,6 @@ void SimulatedRobot::read_encoders() {
   if (!senses_.speeds_stand) shown_.left_radps = wheels.left_radps, shown_.right_radps = wheels.right_radps;
 }
 
-double SimulatedRobot::rim_speed() const noexcept {
-  return std::max(std::fabs(drives_[0]->speed_radps()), std::fabs(drives_[1]->speed_radps())) * wheel_radius_m_;
-}
-
 CanHealth SimulatedRobot::bus_health() const noexcept {
   CanHealth both = buses_[0]->health();
   const CanHealth right = buses_[1]->health();
@@ -107,36 +128,6 @@ double SimulatedRobot::range_along(Eye& eye, std::size_t beam) {
     range = std::min(range, hit_range(map_from_laser.position(), towards, body));
   return range;
 }
-
-namespace {
-
-constexpr std::size_t kMostMessages = 100'000;
-
-/// The file with the ports that the scanners' wires really have.
-RobotFile with_ports(RobotFile file, const FarWires& wires) {
-  for (std::size_t k = 0; k < wires.size(); ++k) {
-    LaserWiring& laser = k == 0 ? file.laser : file.other_lasers[k - 1];
-    if (const auto* const network = dynamic_cast<const emulators::TcpServer*>(wires[k].get()))
-      laser.port = network->port();
-  }
-  return file;
-}
-
-/// At any port that is free where it is one; the file is told.
-std::unique_ptr<emulators::ServedBytes> make_far_line(ByteWiring& line, Clock& clock) {
-  line.port = 0;
-  auto wire = make_far_wire(line);
-  if (const auto* const network = dynamic_cast<const emulators::TcpServer*>(wire.get())) line.port = network->port();
-  return std::make_unique<emulators::ServedBytes>(std::move(wire), clock);
-}
-
-std::vector<std::unique_ptr<ScannerConnection>> make_lasers(const RobotFile& file, Clock& clock) {
-  std::vector<std::unique_ptr<ScannerConnection>> lasers;
-  for (std::size_t k = 0; k < file.lasers().size(); ++k) lasers.push_back(make_laser(file, clock, k));
-  return lasers;
-}
-
-}  // namespace
 
 InProcessRobot::InProcessRobot(RobotFile file, const sim::Scenario& scenario, std::uint64_t seed, Clock& clock,
                                const Run& run)

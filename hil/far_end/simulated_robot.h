@@ -8,8 +8,6 @@
 #include <functional>
 #include <memory>
 #include <span>
-#include <string>
-#include <utility>
 #include <vector>
 
 #include "drivers/can/in_process_bus.h"
@@ -63,7 +61,9 @@ class SimulatedRobot {
     for (CanBus* const bus : buses_) static_cast<void>(bus->send(frame));
   }
   /// m/s at the rim of the faster wheel, as the drives would have it.
-  [[nodiscard]] double rim_speed() const noexcept;
+  [[nodiscard]] double rim_speed() const noexcept {
+    return std::max(std::fabs(drives_[0]->speed_radps()), std::fabs(drives_[1]->speed_radps())) * wheel_radius_m_;
+  }
   /// The worse of the two drives' places on the bus.
   [[nodiscard]] CanHealth bus_health() const noexcept;
 

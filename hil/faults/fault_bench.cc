@@ -1,9 +1,9 @@
 #include "hil/faults/fault_bench.h"
 
 #include <cmath>
-#include <cstdio>
 
 #include "firmware/safety/wheel_proof.h"
+#include "hal/shown_text.h"
 #include "hal/types/wheels.h"
 #include "hil/faults/fault_matrix.h"
 
@@ -18,11 +18,7 @@ constexpr Reason kByReports =
     Reason::kDrive | Reason::kWheelsStale | Reason::kWheelsDisobey | Reason::kMotionMismatch | Reason::kStopUnconfirmed;
 constexpr Duration kLongest = std::chrono::seconds(15), kAfterwards = std::chrono::milliseconds(600);
 
-std::string in_words(const char* format, double a, double b) {
-  char text[120];
-  std::snprintf(text, sizeof text, format, a, b);
-  return text;
-}
+std::string in_words(const char* format, double a, double b) { return formatted(format, a, b); }
 
 }  // namespace
 
@@ -91,10 +87,6 @@ void FaultBench::tick() {
   if (struck_ == kNever) return;
   seen_ |= verdict.reasons;
   faulty_ |= verdict.faulty_scanners;
-}
-
-void FaultBench::wait(Duration time) {
-  for (const Time end = due_ + time; due_ < end;) tick();
 }
 
 bool FaultBench::reach_speed() {

@@ -140,7 +140,9 @@ class FaultBench {
   [[nodiscard]] Duration tick_length() const noexcept { return file_.setup.tick(); }
   [[nodiscard]] StraightPlanner& planner() noexcept { return *planner_; }
   /// The loop lives on for so long.
-  void wait(Duration time);
+  void wait(Duration time) {
+    for (const Time end = due_ + time; due_ < end;) tick();
+  }
   /// The loop does not run for so long, for ever with max().
   void hold_up(Duration time) noexcept;
 

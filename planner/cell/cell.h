@@ -2,9 +2,6 @@
 // Cell functions take values and return a value: no pointer, no index, no memory space. The same
 // source runs on the processor and on the graphics card, and must give the same bits on both, so
 // they use + - x / sqrt, comparisons, integers and the polynomials of exp_log.h, nothing else.
-#include <cstdint>
-#include <limits>
-
 #ifdef __CUDACC__
 #define JAYWALK_CELL __host__ __device__ inline
 #define JAYWALK_ANYWHERE __host__ __device__ inline
@@ -12,6 +9,7 @@
 #define JAYWALK_ANYWHERE inline                     // for functions too long to be put into each of their callers
 #define JAYWALK_CELL [[gnu::always_inline]] inline  // a stage that is called cannot go four cells at a time
 #endif
+#include <limits>
 
 namespace jaywalk::cell {
 
@@ -24,5 +22,19 @@ inline constexpr float kLargest = std::numeric_limits<float>::max();
 
 /// Whether a cell with this psi is free and joined to the goal (false for NaN and infinity).
 JAYWALK_CELL bool is_joined(float psi) { return psi <= kLargest; }
+
+// Exact Euclidean distance transform in integers, separable as Meijster, Roerdink and Hesselink
+// (2000) have it: along a row, cell u sees the nearest obstacle of column i at squared distance
+// (u - i)^2 + g_i^2, where g_i is that column's distance to its own nearest obstacle.
+
+/// Squared distance from column `u` to the nearest obstacle of column `i`, `g` rows away.
+JAYWALK_CELL std::int32_t squared_distance(std::int32_t u, std::int32_t i, std::int32_t g) {
+  return (u - i) * (u - i) + g * g;
+}
+
+/// Last column at which column `i` is still no farther than column `u` > i.
+JAYWALK_CELL std::int32_t last_nearer(std::int32_t i, std::int32_t gi, std::int32_t u, std::int32_t gu) {
+  return (u * u - i * i + gu * gu - gi * gi) / (2 * (u - i));
+}
 
 }  // namespace jaywalk::cell

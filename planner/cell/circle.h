@@ -1,6 +1,5 @@
 #pragma once
 // Angles in single precision from IEEE operations alone: the same bits on every processor.
-#include <cmath>
 
 #include "planner/cell/cell.h"
 

@@ -1,10 +1,10 @@
-#include "planner/cost_to_go/far_guide.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
+
+#include "planner/cost_to_go/guide_field.h"
 
 namespace jaywalk::field {
 namespace {
@@ -49,14 +49,6 @@ FarGuide::FarGuide(double cell_m, std::shared_ptr<const KnownMap> known)
 
 CellIndex FarGuide::cell_at(Vec2 p) const noexcept {
   return {floor_of(p.x / cell_m_) - low_.i, floor_of(p.y / cell_m_) - low_.j};
-}
-
-Vec2 FarGuide::middle_of(CellIndex cell) const noexcept {
-  return {(cell.i + low_.i + 0.5) * cell_m_, (cell.j + low_.j + 0.5) * cell_m_};
-}
-
-KnownCell FarGuide::kind(std::int32_t i, std::int32_t j) const noexcept {
-  return grid_.holds(i, j) ? kinds_[static_cast<std::size_t>(grid_.at(i, j))] : KnownCell::kUnknown;
 }
 
 std::uint32_t FarGuide::rate(std::int32_t i, std::int32_t j) const noexcept {

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 
 #include "planner/cell/cell.h"
 #include "planner/mapping/known_map.h"

@@ -1,10 +1,9 @@
 #include "planner/cost_to_go/nearest_surfaces.h"
 
-#include <algorithm>
 #include <cstdlib>
 #include <cstring>
 
-#include "planner/cell/clearance.h"
+#include "planner/cell/cell.h"
 
 namespace jaywalk::field {
 namespace {
@@ -120,7 +119,7 @@ void NearestSurfaces::spread_along_columns(Grid grid, const CellBox& box) noexce
   }
 }
 
-/// By the lower envelope of the columns' parabolas (planner/cell/clearance.h): what a cell keeps is the surface of the
+/// By the lower envelope of the columns' parabolas (planner/cell/cell.h): what a cell keeps is the surface of the
 /// column that is nearest to it.
 void NearestSurfaces::spread_along_row(Grid grid, const CellBox& box, std::int32_t j) noexcept {
   const auto at = [&](std::int32_t i) { return static_cast<std::size_t>(grid.at(i, j)); };

@@ -1,10 +1,8 @@
 #pragma once
 // The planner's door: what it is asked, what it answers, and the two calls in between.
-#include <array>
 #include <cstdint>
 #include <memory>
 #include <span>
-#include <string>
 
 #include "hal/types/fixed_vector.h"
 #include "hal/types/geometry.h"

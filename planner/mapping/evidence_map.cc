@@ -28,8 +28,6 @@ EvidenceMap::EvidenceMap(std::int32_t side_cells, double cell_m, Vec2 centre_in_
   low_ = {centre.i - side_ / 2, centre.j - side_ / 2};
 }
 
-Vec2 EvidenceMap::centre_of(CellIndex cell) const { return {(cell.i + 0.5) * cell_m_, (cell.j + 0.5) * cell_m_}; }
-
 template <class T>
 void EvidenceMap::copy_row_of(const std::vector<T>& values, CellIndex first, std::int32_t n, T* to) const noexcept {
   std::fill_n(to, n, T{});

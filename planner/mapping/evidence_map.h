@@ -38,7 +38,7 @@ class EvidenceMap {
   [[nodiscard]] CellIndex cell_at(Vec2 p_in_map) const {
     return {whole_cells(p_in_map.x / cell_m_), whole_cells(p_in_map.y / cell_m_)};
   }
-  [[nodiscard]] Vec2 centre_of(CellIndex cell) const;
+  [[nodiscard]] Vec2 centre_of(CellIndex cell) const { return {(cell.i + 0.5) * cell_m_, (cell.j + 0.5) * cell_m_}; }
   /// The window's lowest cell.
   [[nodiscard]] CellIndex low() const { return low_; }
   [[nodiscard]] bool contains(CellIndex cell) const { return within(cell.i, low_.i) && within(cell.j, low_.j); }

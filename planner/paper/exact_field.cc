@@ -1,9 +1,8 @@
-#include "planner/paper/exact_field.h"
-
 #include <algorithm>
 #include <limits>
 
 #include "hal/types/trig.h"
+#include "planner/paper/map_field.h"
 
 namespace jaywalk::paper {
 namespace {

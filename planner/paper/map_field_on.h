@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "planner/paper/exact_field.h"
 #include "planner/paper/map_field.h"
 #include "planner/paper/pass.h"
 #include "planner/paper/path.h"

@@ -61,10 +61,6 @@ double Steering::turn_radps(double most_radps) const noexcept {
   return std::clamp(kTurnGain_per_s * bearing, -most_radps, most_radps);
 }
 
-double Steering::circle_radps(double v_mps, double most_radps) const noexcept {
-  return std::clamp(curvature_per_m * v_mps, -most_radps, most_radps);
-}
-
 Steering pursue(const Path& path, const Pose2& map_from_robot, double v_mps) noexcept {
   const Vec2 target =
       inverse(map_from_robot) * look_ahead(path, map_from_robot.position(), kLookAhead_m + kLookAhead_s * v_mps);

@@ -27,7 +27,9 @@ struct Steering {
   /// Turning on the spot (rad/s), at most `most_radps`.
   [[nodiscard]] double turn_radps(double most_radps) const noexcept;
   /// Turning (rad/s) on the circle at `v_mps`, at most `most_radps`.
-  [[nodiscard]] double circle_radps(double v_mps, double most_radps) const noexcept;
+  [[nodiscard]] double circle_radps(double v_mps, double most_radps) const noexcept {
+    return std::clamp(curvature_per_m * v_mps, -most_radps, most_radps);
+  }
 };
 [[nodiscard]] Steering pursue(const Path& path, const Pose2& map_from_robot, double v_mps) noexcept;
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <vector>
 
-#include "planner/cell/clearance.h"
+#include "planner/cell/cell.h"
 #include "planner/cost_to_go/shortest.h"
 #include "planner/paper/executor.h"
 

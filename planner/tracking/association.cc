@@ -1,10 +1,9 @@
-#include "planner/tracking/association.h"
-
 #include <algorithm>
 #include <limits>
 
 #include "hal/types/trig.h"
 #include "planner/tracking/imm_filter.h"
+#include "planner/tracking/target.h"
 #include "planner/tracking/tuning.h"
 
 namespace jaywalk {

@@ -224,8 +224,6 @@ bool IsolatedObstacles::gather(const EvidenceMap& map, CellIndex first) noexcept
   return loose;
 }
 
-void IsolatedObstacles::begin() noexcept { std::fill(marks_.begin(), marks_.end(), kNew); }
-
 void IsolatedObstacles::forget_unseen(EvidenceMap& map) noexcept {
   const CellIndex low = map.low();
   for (std::int32_t j = low.j; j < low.j + map.side(); ++j) {

@@ -98,7 +98,7 @@ class IsolatedObstacles {
   explicit IsolatedObstacles(const EvidenceMap& map);
 
   /// Nothing is in view. `map`, here and below, is as large as the constructor's.
-  void begin() noexcept;
+  void begin() noexcept { std::fill(marks_.begin(), marks_.end(), kNew); }
   /// Where one of a scan's `count` points lies something is.
   void note_in_view(const EvidenceMap& map, const PointsInMap& in_map, std::size_t count) noexcept;
   /// Makes each of them unknown, as if it had never been seen, that is not in view. Looks at all cells: 1 to 2 ms for

@@ -153,10 +153,6 @@ void ImmFilter::date_back(Track& track, double late_s) noexcept {
   report(track);
 }
 
-void ImmFilter::move(Vec2 by_m) noexcept {
-  for (ModeState& s : modes_) s.position = s.position + by_m;
-}
-
 void ImmFilter::report(Track& track) const noexcept {
   std::array<double, kCount> weights{};
   for (std::size_t k = 0; k < kCount; ++k) weights[k] = modes_[k].weight;

@@ -46,7 +46,9 @@ class ImmFilter {
   /// What was taken for its stamp was `late_s` after it: back to where it was then, going straight.
   void date_back(Track& track, double late_s) noexcept;
   /// Every mode was `by_m` from where it took the target to be.
-  void move(Vec2 by_m) noexcept;
+  void move(Vec2 by_m) noexcept {
+    for (ModeState& s : modes_) s.position = s.position + by_m;
+  }
 
   [[nodiscard]] double weight(Mode mode) const { return modes_[mode].weight; }
 

@@ -68,10 +68,6 @@ bool is_gone(const Track& track, const Existence& existence, Time now) noexcept 
   return unseen_s > std::clamp(known_s, kTentativeS, longest_s);
 }
 
-Vec2 OccludedTracks::Occluded::place_at(Time now) const {
-  return as_seen.position_in_map + as_seen.velocity_in_map * to_seconds(now - as_seen.last_seen);
-}
-
 void OccludedTracks::remember(const Target& target) noexcept {
   const Track& as_seen = target.estimate.as_seen;
   if (to_seconds(as_seen.last_seen - target.existence.born) < kTentativeS) return;

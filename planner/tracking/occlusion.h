@@ -44,7 +44,9 @@ class OccludedTracks {
     double looked_through_s = 0.0;
 
     /// Straight on: of those that come out again within seconds, most did.
-    [[nodiscard]] Vec2 place_at(Time now) const;
+    [[nodiscard]] Vec2 place_at(Time now) const {
+      return as_seen.position_in_map + as_seen.velocity_in_map * to_seconds(now - as_seen.last_seen);
+    }
   };
   FixedVector<Occluded, kMaxOccludedTracks> tracks_;
 };

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "planner/tracking/association.h"
+#include "planner/tracking/target.h"
 #include "planner/tracking/tuning.h"
 
 namespace jaywalk {

@@ -106,10 +106,6 @@ void PositionHistory::add(Time when, const Sample& seen) noexcept {
   ++count_;
 }
 
-void PositionHistory::move(Vec2 by_m) noexcept {
-  for (Position& position : positions_) position.seen.where_in_map = position.seen.where_in_map + by_m;
-}
-
 std::size_t PositionHistory::first() const noexcept {
   std::size_t k = count_ - std::min(count_, kPositions);
   while (k + 1 < count_ && at(count_ - 1).when - at(k).when > kRemembers) ++k;

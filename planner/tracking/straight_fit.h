@@ -38,7 +38,9 @@ class PositionHistory {
 
   void add(Time when, const Sample& seen) noexcept;
   /// All positions were `by_m` from where they were taken to be.
-  void move(Vec2 by_m) noexcept;
+  void move(Vec2 by_m) noexcept {
+    for (Position& position : positions_) position.seen.where_in_map = position.seen.where_in_map + by_m;
+  }
   void clear() noexcept { count_ = 0; }
   /// Least squares over the remembered positions, x and y against time.
   [[nodiscard]] StraightFit fit() const noexcept;

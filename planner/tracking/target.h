@@ -4,13 +4,44 @@
 
 #include "hal/types/fixed_vector.h"
 #include "hal/types/outside_fix.h"
+#include "planner/scan/scan_points.h"
 #include "planner/tracking/detection.h"
 #include "planner/tracking/imm_filter.h"
-#include "planner/tracking/observation.h"
 #include "planner/tracking/straight_fit.h"
 #include "planner/tracking/track.h"
 
 namespace jaywalk {
+
+/// What one scan says of a body: one detection, or a person's two legs. A field a measurement, so more of them than a
+/// struct has elsewhere.
+struct Observation {
+  Vec2 position_in_map;
+  double late_s = 0.0, late_std_s = 0.0;  ///< Detection's: when it was there
+  double std_m = 0.0;                     ///< an axis, as expected of its kind; Target::noise tells what comes of it
+  double off_std_m = 0.0;                 ///< besides, an axis: Target's
+  double radius_m = 0.0;
+  bool in_free_space = false;
+  Outline outline_in_map;  ///< of the nearest detection
+  BeamRun beams{};         ///< of the same
+  bool whole = false;      ///< nothing hid either side of that
+  int hidden_side = 0;     ///< Detection::hidden_side of that
+  bool on_wall = false;    ///< that stands where walls stand
+  double width_m = 0.0;    ///< of what is seen of that
+  double spacing_m = 0.0;  ///< from beam to beam, across them
+  double arc_m = 0.0;      ///< half its width across the beams where it is whole and no leg; else 0
+  bool two_legs = false;   ///< apart, with nothing before either
+  bool lone_leg = false;   ///< one leg alone
+  Vec2 was_off;            ///< m: how far from there one side alone has had it until now that both are seen
+};
+
+/// `lead` alone, or it and another leg, `fellow`, -1 for none. `arc_m`, `on_legs`: Target's.
+[[nodiscard]] Observation observation_of(const Detections& detections, std::size_t lead, std::int32_t fellow,
+                                         double arc_m, bool on_legs) noexcept;
+
+/// From where one side of `c` had its middle while its width was not known (`hidden_side`: Target's), to where both
+/// have it.
+[[nodiscard]] Vec2 off_by_one_side(const Detection& c, int hidden_side) noexcept;
+
 // What the tracker knows of a target, in four parts: a rule is given only those that it reads.
 
 /// Where the target is and how fast it moves.
@@ -142,5 +173,25 @@ void note_seen(Estimate& estimate, Appearance& appearance, const Observation& se
 /// track's. Where there is no room, the one farthest from the robot goes. What is no number, or wider than 2 m, is
 /// passed over.
 void take_given(const OutsideFix& fix, Vec2 robot_in_map, Targets& targets, std::uint32_t& last_id) noexcept;
+
+/// Gives every detection to the likeliest target within its gate (Detection::track_id), of two as near by their own
+/// doubt to the surer one; several may share one. Order of targets and detections does not matter except between exact
+/// equals.
+void associate(const Targets& targets, Detections& detections) noexcept;
+
+/// What the detections given to `target` say together. Its nearest detection leads; when it is a leg, the nearest
+/// other leg within a stride joins it. Detections that are left over and too far to belong are set free again.
+/// False when it got none.
+bool observe(const Track& track, const Appearance& known, Detections& detections, Observation& out) noexcept;
+
+/// A new target's observation from free detection `index` and, for a leg, its nearest free fellow; both are given to
+/// the track that it becomes. False, and nothing changes, when the detection is sparse and has no fellow.
+[[nodiscard]] bool observe_new(Detections& detections, std::size_t index, std::uint32_t becomes_track_id,
+                               Observation& out) noexcept;
+
+/// Cuts segments where one known target ends and the next begins: pedestrians that pass so near that no jump parts
+/// them. A segment is cut that begins on one and ends on another, one of which moves at least, and that is about as
+/// wide as both.
+void split_detections(const Targets& targets, const PointsInMap& in_map, Segments& segments) noexcept;
 
 }  // namespace jaywalk

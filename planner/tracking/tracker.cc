@@ -7,7 +7,6 @@
 
 #include "planner/mapping/map_entry.h"
 #include "planner/scan/scan_points.h"
-#include "planner/tracking/association.h"
 #include "planner/tracking/detection.h"
 #include "planner/tracking/motion_onset.h"
 #include "planner/tracking/scene.h"

@@ -1,7 +1,6 @@
 #include "apps/campaign/report.h"
 
 #include "apps/campaign/campaign_folder.h"
-#include "apps/campaign/charts.h"
 #include "tests/campaign/made_campaigns.h"
 #include "tests/support/catch.h"
 

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <chrono>
 
-#include "drivers/can/byte_bus.h"
+#include "drivers/can/can_bus.h"
 #include "drivers/wired_drive.h"
 #include "tests/drivers/drive_bench.h"
 

@@ -1,9 +1,8 @@
 // What a Pioneer's board and its client say, byte by byte.
-#include "drivers/arcos/arcos.h"
-
 #include <string_view>
 #include <vector>
 
+#include "drivers/arcos/arcos_base.h"
 #include "drivers/wired_drive.h"
 #include "tests/support/catch.h"
 

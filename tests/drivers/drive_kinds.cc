@@ -2,7 +2,7 @@
 
 #include <chrono>
 
-#include "drivers/can/byte_bus.h"
+#include "drivers/can/can_bus.h"
 #include "drivers/canopen/cia402.h"
 
 using namespace std::chrono_literals;

@@ -52,46 +52,30 @@ TEST_CASE("ODrive estimates are turns and turns a second and must be finite") {
   CHECK_FALSE(odrive::decode(extended(frame(0x069, {0, 0, 0xC0, 0x3F, 0, 0, 0x80, 0xBE}))));
 }
 
-TEST_CASE("ODrive errors tell why it disarmed") {
-  const auto message = odrive::decode(frame(0x063, {0, 0, 0, 0, 0, 0, 0, 2}));
-  REQUIRE(message);
-  const auto* errors = std::get_if<odrive::Errors>(&message->content);
-  REQUIRE(errors != nullptr);
-  CHECK(errors->active == 0);
-  CHECK(errors->disarm_reason == odrive::kEstopRequested);
-}
-
 TEST_CASE("51 A to VESC 23 are the bytes that others measured") {
   CHECK(vesc::set_current(0x17, 51000) == extended(frame(0x0117, {0x00, 0x00, 0xC7, 0x38})));
   CHECK(vesc::set_erpm(0x17, -3000) == extended(frame(0x0317, {0xFF, 0xFF, 0xF4, 0x48})));  // 2^32 - 3000
   CHECK(vesc::set_brake_current(0x17, 1000) == extended(frame(0x0217, {0x00, 0x00, 0x03, 0xE8})));
 }
 
-TEST_CASE("a VESC's status tells speed, current and duty cycle") {
-  // -3000 is FFFFF448h; 255 tenths of an ampere; -500 thousandths are FE0Ch.
+TEST_CASE("a VESC's status tells its speed") {
+  // -3000 is FFFFF448h; current and duty cycle follow.
   const auto message = vesc::decode(extended(frame(0x0904, {0xFF, 0xFF, 0xF4, 0x48, 0x00, 0xFF, 0xFE, 0x0C})));
   REQUIRE(message);
   CHECK(message->controller == 4);
   const auto* status = std::get_if<vesc::Status>(&message->content);
   REQUIRE(status != nullptr);
   CHECK(status->erpm == -3000);
-  CHECK(status->current_a == Approx(25.5));
-  CHECK(status->duty == Approx(-0.5));
 }
 
-TEST_CASE("a VESC's travel, supply and temperatures decode to what others measured") {
+TEST_CASE("a VESC's travel decodes to what others measured, and shorter messages are none") {
   const auto travel = vesc::decode(extended(frame(0x1B04, {0x00, 0x00, 0x00, 0x0C, 0x00, 0xEF, 0x00, 0x00})));
   REQUIRE(travel);
   REQUIRE(std::holds_alternative<vesc::Travel>(travel->content));
   CHECK(std::get<vesc::Travel>(travel->content).sixths_of_electrical_turn == 12);
-  CHECK(std::get<vesc::Travel>(travel->content).input_v == Approx(23.9));
-  const auto warm = vesc::decode(extended(frame(0x1004, {0x00, 0xFD, 0xFE, 0x84, 0x00, 0x00, 0x25, 0x1E})));
-  REQUIRE(warm);
-  REQUIRE(std::holds_alternative<vesc::Temperatures>(warm->content));
-  CHECK(std::get<vesc::Temperatures>(warm->content).fet_celsius == Approx(25.3));
-  CHECK(std::get<vesc::Temperatures>(warm->content).motor_celsius == Approx(-38.0));  // none is connected
   CHECK_FALSE(vesc::decode(frame(0x104, {0, 0, 0, 0, 0, 0, 0, 0})));
   CHECK_FALSE(vesc::decode(extended(frame(0x0904, {0, 0, 0, 0, 0, 0, 0}))));
+  CHECK_FALSE(vesc::decode(extended(frame(0x1B04, {0, 0, 0, 0, 0}))));
 }
 
 TEST_CASE("any frame is an ODrive or VESC message with finite numbers or none without the heap") {

@@ -1,8 +1,7 @@
-#include "drivers/motor/odrive_base.h"
-
 #include <chrono>
 #include <string>
 
+#include "drivers/motor/odrive.h"
 #include "tests/drivers/drive_bench.h"
 
 using namespace jaywalk;

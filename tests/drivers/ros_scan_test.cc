@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "drivers/laser/scanner_setup.h"
+#include "drivers/laser/scanner_connection.h"
 #include "tests/drivers/hand_clock.h"
 #include "tests/drivers/random_bytes.h"
 #include "tests/drivers/ring_path.h"

@@ -5,9 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "hil/emulators/scip_server.h"
+#include "hil/emulators/network_scanners.h"
 #include "hil/emulators/serial_scanners.h"
-#include "hil/emulators/sick_server.h"
 #include "tests/drivers/scanner_bench.h"
 
 namespace jaywalk::tests {

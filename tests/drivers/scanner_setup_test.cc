@@ -1,9 +1,8 @@
-#include "drivers/laser/scanner_setup.h"
-
 #include <string>
 
+#include "drivers/laser/scanner_connection.h"
 #include "hal/types/errors.h"
-#include "hil/emulators/sick_server.h"
+#include "hil/emulators/network_scanners.h"
 #include "tests/drivers/hand_clock.h"
 #include "tests/support/catch.h"
 

@@ -5,7 +5,6 @@
 #include <span>
 #include <string>
 
-#include "drivers/laser/cola_stream.h"
 #include "tests/drivers/data_files.h"
 #include "tests/drivers/random_bytes.h"
 #include "tests/support/allocation_guard.h"
@@ -189,7 +188,6 @@ TEST_CASE("telegrams are found between garbage and in pieces of any size") {
         found += Octets(telegram->begin(), telegram->end()) == body ? 1 : 100;
     }
     REQUIRE(found == 2);
-    REQUIRE(telegrams.bad_checksums() == 1);
     REQUIRE(telegrams.skipped() == 5 + damaged.size());
   }
 }

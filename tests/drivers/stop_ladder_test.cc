@@ -1,8 +1,7 @@
-#include "drivers/stop_ladder.h"
-
 #include <algorithm>
 #include <vector>
 
+#include "drivers/wired_drive.h"
 #include "tests/support/catch.h"
 
 using namespace jaywalk;

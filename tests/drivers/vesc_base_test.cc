@@ -1,9 +1,8 @@
-#include "drivers/motor/vesc_base.h"
-
 #include <chrono>
 #include <limits>
 #include <string>
 
+#include "drivers/motor/vesc.h"
 #include "drivers/wired_drive.h"
 #include "tests/drivers/drive_bench.h"
 

@@ -8,7 +8,7 @@
 #include <cstdio>
 #include <memory>
 
-#include "hil/emulators/scip_server.h"
+#include "hil/emulators/network_scanners.h"
 
 int main() {
   using namespace jaywalk;

@@ -1,7 +1,6 @@
-#include "planner/tracking/association.h"
-
 #include <memory>
 
+#include "planner/tracking/target.h"
 #include "tests/perception/room.h"
 #include "tests/support/catch.h"
 

@@ -1,7 +1,7 @@
 #include <memory>
 
-#include "planner/tracking/association.h"
 #include "planner/tracking/detection.h"
+#include "planner/tracking/target.h"
 #include "tests/perception/room.h"
 #include "tests/support/catch.h"
 

@@ -1,7 +1,8 @@
 // Cell functions against numbers worked by hand, and against double precision.
+#include "planner/cell/cell.h"
+
 #include <cmath>
 
-#include "planner/cell/clearance.h"
 #include "planner/cell/exp_log.h"
 #include "planner/cell/kalman.h"
 #include "planner/paper/mark_stages.h"

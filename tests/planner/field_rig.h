@@ -3,8 +3,8 @@
 #include <memory>
 #include <vector>
 
-#include "planner/paper/exact_field.h"
 #include "planner/paper/executor.h"
+#include "planner/paper/map_field.h"
 #include "planner/paper/pass.h"
 #include "tests/planner/test_maps.h"
 

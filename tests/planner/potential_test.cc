@@ -5,7 +5,7 @@
 
 #include "bench/field/random_maps.h"
 #include "planner/mapping/window.h"
-#include "planner/paper/exact_field.h"
+#include "planner/paper/map_field.h"
 #include "planner/paper/path.h"
 #include "tests/planner/field_rig.h"
 #include "tests/support/catch.h"

@@ -1,11 +1,7 @@
-#include "apps/report/picture/picture.h"
-
 #include <cmath>
 #include <limits>
 
-#include "apps/report/picture/cairo_library.h"
 #include "apps/report/picture/canvas.h"
-#include "apps/report/picture/field_layer.h"
 #include "apps/report/picture/run_layers.h"
 #include "apps/report/picture/scene.h"
 #include "hal/types/errors.h"

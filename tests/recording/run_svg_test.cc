@@ -1,6 +1,5 @@
 #include <regex>
 
-#include "apps/report/picture/picture.h"
 #include "apps/report/picture/run_layers.h"
 #include "apps/report/picture/scene.h"
 #include "hal/types/errors.h"

@@ -1,7 +1,6 @@
-#include "apps/report/run_words.h"
-
 #include <cstdio>
 
+#include "apps/report/drive_metrics.h"
 #include "firmware/recording/map_files.h"
 #include "hal/types/errors.h"
 #include "tests/recording/scratch.h"

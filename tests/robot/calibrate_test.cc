@@ -5,7 +5,6 @@
 #include <fstream>
 
 #include "apps/setup/calibration.h"
-#include "apps/setup/guided_drive.h"
 #include "hal/sim/simulation.h"
 #include "hal/types/errors.h"
 #include "hil/far_end/simulated_robot.h"

@@ -5,7 +5,7 @@
 #include <fstream>
 
 #include "apps/setup/scan_surfels.h"
-#include "apps/setup/wiring_checks.h"
+#include "apps/setup/watched_drive.h"
 #include "firmware/robot/commissioned.h"
 #include "hal/types/errors.h"
 #include "hil/far_end/simulated_robot.h"

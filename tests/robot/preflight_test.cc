@@ -11,7 +11,7 @@
 #include "firmware/robot/realtime.h"
 #include "hal/types/errors.h"
 #include "hil/emulators/byte_server.h"
-#include "hil/emulators/sick_server.h"
+#include "hil/emulators/network_scanners.h"
 #include "hil/far_end/simulated_robot.h"
 #include "tests/support/catch.h"
 

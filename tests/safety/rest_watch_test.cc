@@ -1,9 +1,8 @@
 // A robot at rest that is lifted, pushed aside or turned by hand, in rooms with people, and one that nobody touches.
-#include "firmware/safety/rest_watch.h"
-
 #include <optional>
 #include <random>
 
+#include "firmware/safety/felt_motion.h"
 #include "tests/safety/trial_room.h"
 #include "tests/support/catch.h"
 

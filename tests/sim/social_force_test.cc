@@ -1,5 +1,4 @@
-#include "hal/sim/social_force.h"
-
+#include "hal/sim/social_walkers.h"
 #include "tests/support/catch.h"
 
 using namespace jaywalk;

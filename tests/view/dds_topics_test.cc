@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <thread>
 
-#include "apps/formats/ros_messages.h"
+#include "apps/formats/ros_topics.h"
 #include "apps/view/joint_states.h"
 #include "tests/support/catch.h"
 

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -121,10 +120,8 @@ class CarmenReader {
   }
   void use_mount(const std::string& file) {
     log_.robot_from_laser = *mount_;
-    char at[80];
-    std::snprintf(at, sizeof at, ": laser at %.3f,%.3f,%.4f, as the log's poses have it", mount_->x, mount_->y,
-                  mount_->heading);
-    log_.add_remark(file + without_minus_zero(at));
+    log_.add_remark(file + formatted(": laser at %.3f,%.3f,%.4f, as the log's poses have it", mount_->x, mount_->y,
+                                     mount_->heading));
   }
   RecordedScan scan_of(const LineFile& file, std::size_t beams, std::size_t tail) const {
     RecordedScan scan;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 
 #include "hal/shown_text.h"
@@ -39,10 +38,6 @@ TextLines::TextLines(const std::filesystem::path& file, const std::string& expec
 
 TextLines::~TextLines() = default;
 
-void TextLines::refuse(const std::string& cause, const std::string& remedy) const {
-  throw StartupError(name() + ":" + std::to_string(line_) + ": " + cause, remedy);
-}
-
 bool TextLines::next() {
   text_.clear();
   ++line_;
@@ -65,8 +60,6 @@ bool TextLines::next() {
   if (line_ == 1) drop_byte_order_mark(text_);
   return true;
 }
-
-LineFile::LineFile(const std::filesystem::path& file) : lines_(file, "give the path of a recording") {}
 
 void LineFile::split() {
   words_.clear();
@@ -99,12 +92,11 @@ bool LineFile::next() {
 }
 
 double LineFile::number(std::size_t i) const {
-  const std::string_view word = words_[i];
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (error != std::errc() || end != word.data() + word.size())
-    refuse("'" + shown(word) + "' (word " + std::to_string(i + 1) + ") is not a number", "repair or delete the line");
-  return value;
+  const auto value = number_in<double>(words_[i]);
+  if (!value)
+    refuse("'" + shown(words_[i]) + "' (word " + std::to_string(i + 1) + ") is not a number",
+           "repair or delete the line");
+  return *value;
 }
 
 std::size_t LineFile::count(std::size_t i, std::size_t most) const {

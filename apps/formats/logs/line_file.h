@@ -31,7 +31,9 @@ class TextLines {
   [[nodiscard]] std::size_t line() const { return line_; }
   [[nodiscard]] std::string name() const { return file_.string(); }
   /// Throws StartupError "FILE:LINE: cause; remedy" for the line at hand.
-  [[noreturn]] void refuse(const std::string& cause, const std::string& remedy) const;
+  [[noreturn]] void refuse(const std::string& cause, const std::string& remedy) const {
+    throw StartupError(name() + ":" + std::to_string(line_) + ": " + cause, remedy);
+  }
 
  private:
   struct Stream;
@@ -47,7 +49,7 @@ class TextLines {
 class LineFile {
  public:
   /// Throws StartupError when the file cannot be read.
-  explicit LineFile(const std::filesystem::path& file);
+  explicit LineFile(const std::filesystem::path& file) : lines_(file, "give the path of a recording") {}
 
   /// Moves on to the next line with words in it; false at the end. Throws StartupError for a
   /// damaged or cut .gz and for a line that is too long.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "hal/shown_text.h"
 #include "hal/types/errors.h"
@@ -56,6 +55,27 @@ constexpr Duration kShortestStep = std::chrono::milliseconds(1), kOtherwise = st
 
 bool drives(const Pose2& moved) { return norm(moved.position()) > kDrivesM || std::fabs(moved.heading) > kDrivesRad; }
 
+constexpr double kFarthestRange = 1000.0;  // m
+constexpr double kFarForRobots = 100.0;    // m; what means "nothing" may be more, the same for each beam
+constexpr std::size_t kLeastFar = 30;      // ranges: fewer are chance
+constexpr double kFarthestPlace = 1e6;     // m
+constexpr double kFarthestInMapM = 1e5, kFarthestOnEarthM = 4e7;  // places in maps (TomlTable); around the Earth
+constexpr float kTurn = static_cast<float>(2.0 * kPi);
+constexpr double kFastest = 1000.0;                     // m/s, rad/s
+constexpr double kJumpM = 0.5, kFastestDriveMps = 5.0;  // farther in the time: odometry that was set anew
+constexpr double kMostWithoutS = 1.0;                   // of the scans' time without odometry: no word of it
+constexpr double kGapS = 0.5, kGapPeriods = 5.0;
+
+/// Why a scan makes no fan; empty where it does.
+std::string fault_of(const RecordedScan& scan) {
+  if (scan.beams == 0) return "it is empty";
+  if (scan.beams > kMaxBeams) return std::to_string(scan.beams) + " beams, over " + std::to_string(kMaxBeams);
+  const bool fan = std::fabs(scan.first_angle_rad) <= kTurn && std::fabs(scan.angle_step_rad) <= kTurn;
+  if (!fan || scan.angle_step_rad == 0.0F) return "beam angles that make no fan";
+  const bool limits = scan.range_max_m > scan.range_min_m && scan.range_min_m >= 0.0F;
+  return limits ? "" : "range limits that hold nothing";
+}
+
 }  // namespace
 
 std::vector<const char*> judge_times(std::span<const Time> stamps) {
@@ -95,31 +115,6 @@ Time LineClock::even(std::size_t k) const {
   const Duration span = last_ - first_;
   return span / steps >= kShortestStep ? first_ + Duration{span.count() / steps * at} : first_ + kOtherwise * at;
 }
-
-namespace {
-
-constexpr double kFarthestRange = 1000.0;  // m
-constexpr double kFarForRobots = 100.0;    // m; what means "nothing" may be more, the same for each beam
-constexpr std::size_t kLeastFar = 30;      // ranges: fewer are chance
-constexpr double kFarthestPlace = 1e6;     // m
-constexpr double kFarthestInMapM = 1e5, kFarthestOnEarthM = 4e7;  // places in maps (TomlTable); around the Earth
-constexpr float kTurn = static_cast<float>(2.0 * kPi);
-constexpr double kFastest = 1000.0;                     // m/s, rad/s
-constexpr double kJumpM = 0.5, kFastestDriveMps = 5.0;  // farther in the time: odometry that was set anew
-constexpr double kMostWithoutS = 1.0;                   // of the scans' time without odometry: no word of it
-constexpr double kGapS = 0.5, kGapPeriods = 5.0;
-
-/// Why a scan makes no fan; empty where it does.
-std::string fault_of(const RecordedScan& scan) {
-  if (scan.beams == 0) return "it is empty";
-  if (scan.beams > kMaxBeams) return std::to_string(scan.beams) + " beams, over " + std::to_string(kMaxBeams);
-  const bool fan = std::fabs(scan.first_angle_rad) <= kTurn && std::fabs(scan.angle_step_rad) <= kTurn;
-  if (!fan || scan.angle_step_rad == 0.0F) return "beam angles that make no fan";
-  const bool limits = scan.range_max_m > scan.range_min_m && scan.range_min_m >= 0.0F;
-  return limits ? "" : "range limits that hold nothing";
-}
-
-}  // namespace
 
 bool LogScans::add(const LogPlace& place, RecordedScan scan, std::span<const double> ranges, double nothing_from_m) {
   if (const std::string fault = fault_of(scan); !fault.empty()) {
@@ -183,10 +178,8 @@ void remark_gaps(RecordedLog& log, const std::string& file) {
   for (std::size_t k = 1; k < log.scans.size(); ++k) {
     const double gap_s = to_seconds(log.scans[k].stamp - log.scans[k - 1].stamp);
     if (gap_s < least_s || ++gaps > kMostTold) continue;
-    char text[64];
-    std::snprintf(text, sizeof text, "%s%.1f s from %.1f s on", told.empty() ? "" : ", ", gap_s,
-                  to_seconds(log.scans[k - 1].stamp - log.scans.front().stamp));
-    told += text;
+    told += formatted("%s%.1f s from %.1f s on", told.empty() ? "" : ", ", gap_s,
+                      to_seconds(log.scans[k - 1].stamp - log.scans.front().stamp));
   }
   if (gaps > kMostTold) told += " and " + std::to_string(gaps - kMostTold) + " more";
   if (gaps > 0) log.add_remark(file + ": no scans for " + told);
@@ -278,9 +271,8 @@ void compare_times(RecordedLog& log, const std::string& odometry_name) {
   const double all_s = to_seconds(log.scans.back().stamp - log.scans.front().stamp);
   const double without_s = all_s - to_seconds(end - begin);
   if (without_s < kMostWithoutS) return;
-  char text[80];
-  std::snprintf(text, sizeof text, ": nothing of %.1f of the %.1f s of scans: no wheels there", without_s, all_s);
-  log.add_remark(odometry_name + text);
+  log.add_remark(odometry_name +
+                 formatted(": nothing of %.1f of the %.1f s of scans: no wheels there", without_s, all_s));
 }
 
 bool add_scan(LogScans& scans, const LineFile& file, const RecordedScan& scan, std::size_t first_word,

@@ -71,6 +71,29 @@ void stamp_reading(WheelState& now, Time stamp, const WheelState& before) {
   now.right_radps = (now.right_rad - before.right_rad) / dt;
 }
 
+constexpr double kSlowestTurnS = 0.1;
+
+Duration median_period(const std::vector<RecordedScan>& scans) {
+  std::vector<Duration> periods;
+  for (std::size_t i = 1; i < scans.size(); ++i) periods.push_back(scans[i].stamp - scans[i - 1].stamp);
+  if (periods.empty()) return Duration{0};
+  const auto middle = periods.begin() + static_cast<std::ptrdiff_t>(periods.size() / 2);
+  std::nth_element(periods.begin(), middle, periods.end());
+  return *middle;
+}
+
+constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
+
+/// The nearer hit; what found nothing (infinity) says more than what knows nothing.
+float nearer(float a, float b) {
+  if (std::isnan(a)) return b;
+  return std::isnan(b) ? a : std::min(a, b);
+}
+
+BeamAngles fan_of(const RecordedScan& scan) {
+  return {static_cast<double>(scan.first_angle_rad), static_cast<double>(scan.angle_step_rad), scan.beams};
+}
+
 }  // namespace
 
 DriveModel nominal_drive() { return {.wheel_radius_m = 0.1, .track_width_m = 0.5, .max_wheel_speed_radps = 100.0}; }
@@ -137,33 +160,6 @@ DriveTimes report_times(const std::vector<WheelState>& trail) {
   times.late_s = std::clamp(periods_s[periods_s.size() * 19 / 20] - times.report_s, 0.0, kLatest_s);
   return times;
 }
-
-namespace {
-
-constexpr double kSlowestTurnS = 0.1;
-
-Duration median_period(const std::vector<RecordedScan>& scans) {
-  std::vector<Duration> periods;
-  for (std::size_t i = 1; i < scans.size(); ++i) periods.push_back(scans[i].stamp - scans[i - 1].stamp);
-  if (periods.empty()) return Duration{0};
-  const auto middle = periods.begin() + static_cast<std::ptrdiff_t>(periods.size() / 2);
-  std::nth_element(periods.begin(), middle, periods.end());
-  return *middle;
-}
-
-constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
-
-/// The nearer hit; what found nothing (infinity) says more than what knows nothing.
-float nearer(float a, float b) {
-  if (std::isnan(a)) return b;
-  return std::isnan(b) ? a : std::min(a, b);
-}
-
-BeamAngles fan_of(const RecordedScan& scan) {
-  return {static_cast<double>(scan.first_angle_rad), static_cast<double>(scan.angle_step_rad), scan.beams};
-}
-
-}  // namespace
 
 void LogPlace::refuse(const std::string& cause, const std::string& remedy) const {
   const std::string at = unit == "line" ? ":" : ": " + unit + " ";

@@ -38,6 +38,10 @@ struct Lettering {
 
 using Polyline = std::vector<Vec2>;
 
+/// Loads the shared library of that name for as long as the program runs: a robot's program starts without cairo, and
+/// without the X11 and font libraries that it brings. Null where it is not installed or no cairo. Not for the loop.
+[[nodiscard]] void* load_cairo(const char* name = "libcairo.so.2");
+
 class Canvas {
  public:
   /// A white sheet. Throws std::bad_alloc.

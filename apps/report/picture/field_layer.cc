@@ -1,5 +1,3 @@
-#include "apps/report/picture/field_layer.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>

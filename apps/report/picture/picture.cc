@@ -1,15 +1,11 @@
-#include "apps/report/picture/picture.h"
-
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <functional>
-#include <string>
 
-#include "apps/report/picture/cairo_library.h"
 #include "apps/report/picture/canvas.h"
-#include "apps/report/picture/field_layer.h"
 #include "apps/report/picture/run_layers.h"
+#include "apps/report/picture/scene.h"
+#include "hal/shown_text.h"
 
 namespace jaywalk {
 namespace {
@@ -119,8 +115,7 @@ void add_decision_rows(std::vector<LegendRow>& rows, Canvas& canvas, const Pictu
   };
   rows.push_back({line(ink::kBand, 3.6), "chosen, 6 s"});
   for (std::size_t k = 0; k < std::min(scene.decision->ways.size(), kWayColours.size()); ++k) {
-    char dearer[32];
-    std::snprintf(dearer, sizeof dearer, "%+.1f s: ", static_cast<double>(scene.decision->ways[k].dearer_s));
+    const std::string dearer = formatted("%+.1f s: ", static_cast<double>(scene.decision->ways[k].dearer_s));
     rows.push_back({line(kWayColours[k], 2.4), dearer + scene.decision->ways[k].name});
   }
   if (!scene.decision->futures.empty()) {
@@ -266,7 +261,7 @@ void draw_map(Canvas& canvas, const MapFrame& to_sheet, const PictureScene& scen
 
 }  // namespace
 
-bool can_draw_pictures() { return cairo_library() != nullptr; }
+bool can_draw_pictures() { return load_cairo() != nullptr; }
 
 void draw_picture(const PictureScene& scene, const std::string& file) {
   const MapFrame to_sheet(filled_out(scene.extent), kMapCorner, kMapMost);

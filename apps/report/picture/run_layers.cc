@@ -4,8 +4,6 @@
 #include <array>
 #include <limits>
 
-#include "apps/report/picture/scene.h"
-
 namespace jaywalk {
 namespace {
 constexpr double kTrailFadeS = 12.0;        ///< a trail is e times fainter after this

@@ -1,14 +1,12 @@
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <fstream>
 #include <set>
 
 #include "apps/report/markup.h"
-#include "apps/report/picture/picture.h"
 #include "apps/report/picture/run_layers.h"
 #include "apps/report/picture/scene.h"
-#include "hal/types/errors.h"
+#include "hal/shown_text.h"
+#include "hal/text_file.h"
 
 namespace jaywalk {
 namespace {
@@ -102,11 +100,7 @@ class Drawing {
 
   [[nodiscard]] double play_s() const { return std::min(playback_.lasts_s(), kLongestPlayS); }
 
-  [[nodiscard]] std::string dur() const {
-    char text[64];
-    std::snprintf(text, sizeof text, " dur=\"%.1fs\" repeatCount=\"indefinite\"/>", play_s());
-    return text;
-  }
+  [[nodiscard]] std::string dur() const { return formatted(" dur=\"%.1fs\" repeatCount=\"indefinite\"/>", play_s()); }
 
   void begin() {
     const Vec2 size = to_sheet_.size();
@@ -252,8 +246,7 @@ class Drawing {
   /// Bodies that come and go are invisible before and after.
   [[nodiscard]] std::string shown_while(Playback::Stay stay) const {
     if (stay.from <= 0.0 && stay.to >= 1.0) return "";
-    char times[64];
-    std::snprintf(times, sizeof times, "0;%.4f;%.4f", std::max(stay.from, 0.0001), std::max(stay.to, 0.0002));
+    const std::string times = formatted("0;%.4f;%.4f", std::max(stay.from, 0.0001), std::max(stay.to, 0.0002));
     return "<animate attributeName=\"visibility\" calcMode=\"discrete\" values=\"" +
            std::string(stay.from <= 0.0 ? "visible" : "hidden") + ";visible;" + (stay.to < 1.0 ? "hidden" : "visible") +
            "\" keyTimes=\"" + times + "\"" + dur();
@@ -263,10 +256,9 @@ class Drawing {
   void clock() {
     const double wide = to_sheet_.size().x;
     const double y = kDrawingCorner.y + to_sheet_.size().y;
-    char words[96];
     const double faster = playback_.lasts_s() / play_s();
-    std::snprintf(words, sizeof words, faster > 1.0 ? "%.1f s, shown %.1f times faster" : "%.1f s", playback_.lasts_s(),
-                  faster);
+    const std::string words =
+        formatted(faster > 1.0 ? "%.1f s, shown %.1f times faster" : "%.1f s", playback_.lasts_s(), faster);
     out_ += "<rect x=\"20\" y=\"" + whole(y + 8.0) + "\" width=\"" + whole(wide) + "\" height=\"8\" fill=\"" +
             hex(ink::kFaint) + "\"><animate attributeName=\"width\" values=\"0;" + whole(wide) + "\"" + dur() +
             "</rect>\n<text x=\"20\" y=\"" + whole(y + 48.0) + "\">" + words + "</text>\n";
@@ -287,9 +279,7 @@ class Drawing {
 std::string svg_of(const PictureScene& scene) { return Drawing(scene).text(); }
 
 void draw_svg(const PictureScene& scene, const std::string& file) {
-  std::ofstream out(file, std::ios::binary);
-  out << svg_of(scene);
-  if (!out.flush()) throw StartupError(file + ": cannot be written", "free some disk, or choose another --out folder");
+  write_text(file, svg_of(scene), "free some disk, or choose another --out folder");
 }
 
 }  // namespace jaywalk

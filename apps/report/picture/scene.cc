@@ -1,6 +1,5 @@
 #include "apps/report/picture/scene.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -8,6 +7,7 @@
 
 namespace jaywalk {
 namespace {
+
 /// Keeps of what stands in the order of time the first, and what comes `spacing` or more after the last that was kept.
 template <class Timed>
 void keep_every(Duration spacing, std::vector<Timed>& all) {
@@ -72,6 +72,43 @@ std::vector<Vec2> shown_beams(const LaserScan& scan) {
   }
   return ends;
 }
+
+constexpr double kStepS = 0.4;       ///< 0.24 m at 0.6 m/s: what a straight line between two positions hides
+constexpr double kGoneAfterS = 1.0;  ///< a body without a point for this long has left
+
+/// The first of `all` later than `t`.
+template <class Timed>
+std::size_t after(const std::vector<Timed>& all, Time t) {
+  const auto later = std::upper_bound(all.begin(), all.end(), t, [](Time a, const Timed& b) { return a < b.t; });
+  return static_cast<std::size_t>(later - all.begin());
+}
+
+template <class Timed>
+double share_between(const Timed& from, const Timed& to, Time t) {
+  return to_seconds(t - from.t) / to_seconds(to.t - from.t);
+}
+
+Vec2 held_position(const Trail& trail, Time t) {
+  const std::size_t next = after(trail.points, t);
+  if (next == 0) return trail.points.front().position;
+  if (next == trail.points.size()) return trail.points.back().position;
+  const TrailPoint& from = trail.points[next - 1];
+  const TrailPoint& to = trail.points[next];
+  return from.position + (to.position - from.position) * share_between(from, to, t);
+}
+
+Pose2 held_pose(const std::vector<DrivenPose>& driven, Time t) {
+  const std::size_t next = after(driven, t);
+  if (next == 0) return driven.front().pose;
+  if (next == driven.size()) return driven.back().pose;
+  const Pose2& from = driven[next - 1].pose;
+  const Pose2& to = driven[next].pose;
+  const double share = share_between(driven[next - 1], driven[next], t);
+  const Vec2 at = from.position() + (to.position() - from.position()) * share;
+  return {at.x, at.y, from.heading + wrap_angle(to.heading - from.heading) * share};
+}
+
+Time gone_at(const Trail& trail) { return trail.points.back().t + duration_from_seconds(kGoneAfterS); }
 
 }  // namespace
 
@@ -173,56 +210,12 @@ void BusiestMoment::consider(const Plan& plan, const Planner& planner, std::span
                        raster_of(planner.view_field())};
 }
 
-namespace {
-constexpr double kStepS = 0.4;       ///< 0.24 m at 0.6 m/s: what a straight line between two positions hides
-constexpr double kGoneAfterS = 1.0;  ///< a body without a point for this long has left
-
-/// The first of `all` later than `t`.
-template <class Timed>
-std::size_t after(const std::vector<Timed>& all, Time t) {
-  const auto later = std::upper_bound(all.begin(), all.end(), t, [](Time a, const Timed& b) { return a < b.t; });
-  return static_cast<std::size_t>(later - all.begin());
-}
-
-template <class Timed>
-double share_between(const Timed& from, const Timed& to, Time t) {
-  return to_seconds(t - from.t) / to_seconds(to.t - from.t);
-}
-
-Vec2 held_position(const Trail& trail, Time t) {
-  const std::size_t next = after(trail.points, t);
-  if (next == 0) return trail.points.front().position;
-  if (next == trail.points.size()) return trail.points.back().position;
-  const TrailPoint& from = trail.points[next - 1];
-  const TrailPoint& to = trail.points[next];
-  return from.position + (to.position - from.position) * share_between(from, to, t);
-}
-
-Pose2 held_pose(const std::vector<DrivenPose>& driven, Time t) {
-  const std::size_t next = after(driven, t);
-  if (next == 0) return driven.front().pose;
-  if (next == driven.size()) return driven.back().pose;
-  const Pose2& from = driven[next - 1].pose;
-  const Pose2& to = driven[next].pose;
-  const double share = share_between(driven[next - 1], driven[next], t);
-  const Vec2 at = from.position() + (to.position() - from.position()) * share;
-  return {at.x, at.y, from.heading + wrap_angle(to.heading - from.heading) * share};
-}
-
-Time gone_at(const Trail& trail) { return trail.points.back().t + duration_from_seconds(kGoneAfterS); }
-
-}  // namespace
-
 Playback::Playback(const std::vector<DrivenPose>& driven, std::size_t most_steps) : driven_(driven) {
   if (driven_.empty()) return;
   begin_ = driven_.front().t;
   lasts_s_ = std::max(to_seconds(driven_.back().t - begin_), kStepS);
   const auto wanted = static_cast<std::size_t>(std::ceil(lasts_s_ / kStepS)) + 1;
   steps_ = std::max<std::size_t>(2, std::min(wanted, most_steps));
-}
-
-Time Playback::time_of(std::size_t step) const {
-  return begin_ + duration_from_seconds(lasts_s_ * static_cast<double>(step) / static_cast<double>(steps_ - 1));
 }
 
 std::vector<Pose2> Playback::robot() const {

@@ -211,7 +211,9 @@ class Playback {
   [[nodiscard]] Stay stay(const Trail& trail) const;
 
  private:
-  [[nodiscard]] Time time_of(std::size_t step) const;
+  [[nodiscard]] Time time_of(std::size_t step) const {
+    return begin_ + duration_from_seconds(lasts_s_ * static_cast<double>(step) / static_cast<double>(steps_ - 1));
+  }
 
   const std::vector<DrivenPose>& driven_;
   Time begin_ = kNever;
@@ -222,5 +224,26 @@ class Playback {
 /// Where the trail was at time `t`, in a straight line between its points; its last point for 1 s after its end. No
 /// value before its first point and later than that.
 [[nodiscard]] std::optional<Vec2> position_at(const Trail& trail, Time t);
+
+/// Whether pictures can be drawn: cairo is loaded when first asked for. Not for the loop.
+[[nodiscard]] bool can_draw_pictures();
+
+/// Draws the scene and writes it as a PNG about 1,900 pixels wide: walls, field, movers, drive, plan;
+/// beside the map its facts and a legend. The same scene gives the same bytes on the same machine
+/// (letters come from the font "DejaVu Sans" by way of cairo). Throws StartupError when `file`
+/// cannot be written, or cairo is not installed.
+void draw_picture(const PictureScene& scene, const std::string& file);
+
+/// An animated SVG has at most about this many bytes, however long the run.
+inline constexpr std::size_t kMostSvgBytes = 100'000;
+
+/// The scene as a moving picture for browsers and READMEs: SVG with SMIL animation and no script; it repeats for ever.
+/// Walls, the robot with its way, goal, movers (tracks that moved where there are no movers). It plays in real time,
+/// runs longer than a minute faster. Positions are 0.4 s apart, farther where the file would become too large. The same
+/// scene gives the same text. An empty scene gives an empty map.
+[[nodiscard]] std::string svg_of(const PictureScene& scene);
+
+/// Writes svg_of(scene). Throws StartupError when `file` cannot be written.
+void draw_svg(const PictureScene& scene, const std::string& file);
 
 }  // namespace jaywalk

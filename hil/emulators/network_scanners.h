@@ -2,10 +2,56 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "hil/emulators/scanner_server.h"
 
 namespace jaywalk::emulators {
+
+/// What kind of Hokuyo it is; a UTM-30LX.
+struct ScipModel {
+  std::uint32_t steps_per_turn = 1440;
+  std::uint32_t first_step = 0;
+  std::uint32_t last_step = 1080;
+  std::uint32_t front_step = 540;
+  std::uint32_t turns_per_minute = 2400;
+  std::uint32_t range_min_mm = 23;
+  std::uint32_t range_max_mm = 60000;
+};
+
+/// A Hokuyo that speaks SCIP 2: QT, PP, BM, and MD over any of its steps; what it does not know is refused with 0E. Its
+/// clock of 24 bits wraps two seconds after ours began. A new peer finds it as the last one left it, as on a serial
+/// line.
+class ScipServer final : public ScannerServer {
+ public:
+  ScipServer(std::unique_ptr<ByteServer> wire, const ScipModel& model, World world);
+
+  /// It speaks SCIP 1.1 until it hears SCIP2.0, as a URG-04LX.
+  void begin_with_scip_1() noexcept { speaks_scip_2_ = false; }
+  /// The laser does not come on any more.
+  void break_laser() noexcept { broken_ = true; }
+  /// The status that comes in place of each scan, as "0L" for a broken laser; empty: it is well.
+  void set_status(std::string status) { status_ = std::move(status); }
+
+ private:
+  void on_bytes(wire::Bytes bytes) override;
+  Message message_of(std::size_t first_beam, Ranges range_m, Time began, Time now) override;
+
+  void obey(const std::string& command);
+  void begin_scans(const std::string& command);
+  void say(const std::string& command, const std::string& status, const std::string& lines = "");
+  [[nodiscard]] std::string parameters() const;
+  [[nodiscard]] std::uint32_t joined_mm(std::span<const float> range_m) const;
+
+  ScipModel model_;
+  std::string came_in_;
+  std::string asked_;  ///< the MD that is being answered
+  std::uint32_t first_ = 0, last_ = 0, joined_ = 1;
+  bool laser_on_ = false;
+  bool broken_ = false;
+  bool speaks_scip_2_ = true;
+  std::string status_;
+};
 
 enum class ColaDialect : std::uint8_t { kText, kBinary };
 
@@ -40,8 +86,7 @@ class SickServer final : public ScannerServer {
  private:
   void on_new_peer() override;
   void on_bytes(wire::Bytes bytes) override;
-  std::vector<std::uint8_t> message_of(std::size_t first_beam, std::span<const float> range_m, Time began,
-                                       Time now) override;
+  Message message_of(std::size_t first_beam, Ranges range_m, Time began, Time now) override;
 
   [[nodiscard]] bool take_command(std::string& command);
   void obey(std::string_view command);
