@@ -59,8 +59,9 @@ inline std::string text_in(const std::filesystem::path& file) {
 /// Throws StartupError where `file` does not take all of it.
 inline void write_text(const std::filesystem::path& file, const std::string& text, const std::string& remedy) {
   std::ofstream out(file, std::ios::binary);
+  if (!out) throw StartupError(file.string() + ": cannot be written", remedy);
   out << text;
-  if (!out.flush()) throw StartupError(file.string() + ": cannot be written", remedy);
+  if (!out.flush()) throw StartupError(file.string() + ": the disk did not take all of it", remedy);
 }
 
 /// Throws StartupError about a line, counted from 1, of a table that `rows` tells how to write; 0: about the whole.
