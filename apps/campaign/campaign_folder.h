@@ -107,12 +107,12 @@ class CampaignFolder {
 /// Writes a file that is whole or not there, whenever the process is killed. Throws StartupError where it cannot.
 void write_whole(const std::filesystem::path& file, const std::string& text, const std::string& own_name);
 
-// How a run drove and why it failed, by its tables.
+// Ride figures and failure cause of a run, read from its tables.
 
 /// Above every model's comfort and below every model's braking; changes are taken over 0.1 s, as Smoothness does.
 inline constexpr double kHardBrake_mps2 = 0.7;
 
-/// How a passenger is driven, from robot.csv.
+/// Ride comfort of a run, from robot.csv.
 struct Ride {
   double steering_reversals = 0.0;  ///< how often the robot turned one way, and then the other
   double speed_reversals = 0.0;     ///< how often it drove one way, and then the other

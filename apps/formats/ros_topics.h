@@ -17,7 +17,7 @@
 
 namespace jaywalk::exchange {
 
-/// Where the robot is: its wheels' own frame drifts against the map.
+/// The robot's pose in odometry, and odometry's pose in the map (the odometry frame drifts).
 struct RobotFrames {
   Pose2 map_from_odom, odom_from_robot;
 };

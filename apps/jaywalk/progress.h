@@ -45,7 +45,7 @@ class Progress {
 
  private:
   static constexpr int kBarCells = 30;
-  /// With "[", "] " and the bar 76 cells: narrower than any terminal, whose line would break otherwise.
+  /// Width in characters. The whole line has 76, so that it fits a terminal of 80 without a break.
   static constexpr int kWordCells = 43, kLineCells = kBarCells + 3 + kWordCells;
 
   std::FILE* to_;

@@ -173,9 +173,9 @@ class Moments {
   std::vector<Moment> moments_;
 };
 
-/// What happened in the run whose tables lie in `folder`, in plain words: distance, how long it drove and stood and
-/// why, faults. A run that was killed has no summary.json: its tables are told all the same. Throws StartupError where
-/// there is no robot.csv, or a row of it is not one of ours.
+/// Plain words about the run in `folder`: distance, time driven, time stood with its causes, faults. A killed run has
+/// no summary.json; its tables are described all the same. Throws StartupError where robot.csv is missing or has a row
+/// of another form.
 [[nodiscard]] std::string run_words(const std::filesystem::path& folder);
 
 }  // namespace jaywalk

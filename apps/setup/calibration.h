@@ -18,7 +18,7 @@ namespace jaywalk {
 
 // The drive of a calibration: straight on and back, an eight.
 
-// What a drive leaves for a calibration: the wheels' turns all along, and scans a piece of way apart.
+// Data that a calibration takes from a drive: wheel angles throughout, and scans at a fixed spacing of way.
 
 /// What both wheels had turned by then (rad).
 struct WheelTurns {

@@ -114,7 +114,7 @@ wire::FileDescriptor listening_at(const std::filesystem::path& path) {
     throw StartupError(path.string() + ": another run listens there", "end it, or give control_socket another name");
   remove_dead_socket(path);
   wire::FileDescriptor made(::socket(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
-  ::fchmod(made.get(), S_IRUSR | S_IWUSR);  // as long as it is not listening, nobody else's
+  ::fchmod(made.get(), S_IRUSR | S_IWUSR);  // no other user can connect before the socket listens
   if (::bind(made.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0 ||
       ::chmod(address.sun_path, S_IRUSR | S_IWUSR | S_IRGRP | S_IWGRP) != 0 || ::listen(made.get(), kBacklog) != 0)
     throw StartupError(path.string() + ": " + std::strerror(errno), "give control_socket a name that can be made");

@@ -28,7 +28,8 @@ inline constexpr double kHalfSight_rad = 100.0 / 180.0 * kPi;
 
 /// Force towards a wished velocity (eq. 2).
 [[nodiscard]] Vec2 towards(Vec2 wished_mps, Vec2 velocity_mps) noexcept;
-/// Force away from another pedestrian, who moves at `velocity_mps` (eqs. 3 and 4). `apart_m`: from it to this one.
+/// Repulsive force of another pedestrian that moves at `velocity_mps` (eqs. 3 and 4). `apart_m`: vector from the other
+/// pedestrian to this one.
 [[nodiscard]] Vec2 away_from_walker(Vec2 apart_m, Vec2 velocity_mps) noexcept;
 /// Force away from a wall's nearest point (eq. 5). `apart_m`: from that point to the pedestrian.
 [[nodiscard]] Vec2 away_from_wall(Vec2 apart_m) noexcept;

@@ -107,7 +107,7 @@ class PlantLog {
   /// Throws StartupError where the file cannot be written.
   PlantLog(const std::filesystem::path& file, Time start);
   void event(Time now, const std::string& words);
-  /// The far end itself was held up: by this machine, not by whom it judges.
+  /// Notes that this program itself ran late; the controller under test is not to blame.
   void late(Time now, Duration by);
   void follow(SimulatedRobot& robot, Time now);
   void finish(SimulatedRobot& robot, Time now);

@@ -62,7 +62,7 @@ class FarGuide {
   std::vector<KnownCell> kinds_;
   CellGraph graph_;
   Shortest repair_;
-  std::vector<std::int32_t> changed_;  ///< nodes whose rate has changed since the last repair
+  std::vector<std::int32_t> changed_;  ///< nodes with another rate than at the last repair
   std::int32_t goal_ = CellGraph::kNone;
 };
 

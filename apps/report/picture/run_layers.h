@@ -63,13 +63,13 @@ inline constexpr int kContours = 24;
 /// is NaN.
 [[nodiscard]] Polyline contour(const std::vector<float>& values, std::int32_t width, std::int32_t height, float level);
 
-/// The part of the field whose cells' centres lie within `extent`; no cells where none do.
+/// The cells of `field` with centres within `extent`; empty if there are none.
 [[nodiscard]] FieldRaster cropped(const FieldRaster& field, const Extent& extent);
 
 /// A colour wash from the goal outwards, with contour lines.
 void draw_field(Canvas& canvas, const MapFrame& to_sheet, const FieldRaster& field);
 
-/// Of the ways that were not chosen, the cheapest first: as many are shown.
+/// Colours of the alternatives that were not chosen, cheapest first; the picture shows only so many.
 inline constexpr std::array<Colour, 5> kWayColours{colour(0x1B8A4B), colour(0xC9A227), colour(0x0F8B8D),
                                                    colour(0xC2182B), colour(0x6B4E2E)};
 inline constexpr Colour kFutureColour = colour(0x7A3E9D);

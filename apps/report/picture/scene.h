@@ -25,7 +25,7 @@ struct TrailPoint {
   Vec2 position;
 };
 
-/// Where the robot stood, and what it saw from there.
+/// The robot's pose at a time, and the laser's view from it.
 struct DrivenPose {
   Time t = kNever;
   Pose2 pose;
