@@ -21,6 +21,7 @@ constexpr float kTurnBlocked_s = 5.0F;      ///< without progress, at the goal
 /// and its way has not. Counted as a stall, a dead end made the robot impatient all the way out of it: a loop in 5 of
 /// 32 runs (16 movers, maps 1 to 4, seeds 9400 to 9431), in none without.
 constexpr float kMapChanges_s = 1.0F;
+constexpr float kWonBack = 2.0F, kMostLost_s = 60.0F;  ///< StallState::lost_s
 constexpr Duration kGuideHoldsFor = std::chrono::seconds(1);  ///< as the supervisor's longest age of a plan
 
 /// Hands every trajectory that a decision tries to `look`, which keeps the best of them in `best`.
@@ -166,8 +167,10 @@ void GoalRollouts::note_progress(const Situation& situation, Time now) noexcept 
   stall_.wound_rad += cell::wrapped(situation.start.heading - heading_);
   heading_ = situation.start.heading;
   const float to_go_s = situation.time_to_go(decision_.start), rise_s = to_go_s - to_go_s_;
-  if (std::fabs(rise_s) > kMapChanges_s) stall_.least_to_go_s += rise_s;
+  const bool map_changed = std::fabs(rise_s) > kMapChanges_s;
+  if (map_changed) stall_.least_to_go_s += rise_s;
   to_go_s_ = to_go_s;
+  note_lost(map_changed ? 0.0F : -rise_s, now);
   if (stalled_since_ == kNever || now < stalled_since_ || stall_.gets_on(to_go_s)) {
     stall_.least_to_go_s = to_go_s;
     stall_.wound_rad = 0.0F;
@@ -177,6 +180,14 @@ void GoalRollouts::note_progress(const Situation& situation, Time now) noexcept 
   stall_.is_alone = memory().hidden().empty() &&
                     std::all_of(beliefs.begin(), beliefs.end(), [](const MoverBelief& b) { return b.newcomer; });
   stall_.for_s = static_cast<float>(to_seconds(now - stalled_since_));
+}
+
+/// `won_s`: by which the time to go fell since the last decision.
+void GoalRollouts::note_lost(float won_s, Time now) noexcept {
+  const bool is_new = stalled_since_ == kNever || now < noted_;
+  const auto since_s = static_cast<float>(is_new ? 0.0 : std::min(1.0, to_seconds(now - noted_)));
+  stall_.lost_s = is_new ? 0.0F : std::clamp(stall_.lost_s + since_s - kWonBack * won_s, 0.0F, kMostLost_s);
+  noted_ = now;
 }
 
 RolloutMotion::Next GoalRollouts::next(const World& world, const Intent& intent, const RobotState& now) noexcept {

@@ -39,12 +39,13 @@ class GoalRollouts final : public RolloutMotion {
   [[nodiscard]] float conflict_price() const noexcept;
   void search(const Situation& situation) noexcept;
   void note_progress(const Situation& situation, Time now) noexcept;
+  void note_lost(float won_s, Time now) noexcept;
   [[nodiscard]] bool is_there(const World& world) const noexcept;
 
   Trajectory trial_, best_;
   Cost best_cost_;
   StallState stall_;
-  Time stalled_since_ = kNever;
+  Time stalled_since_ = kNever, noted_ = kNever;  ///< `noted_`: the last decision
   bool stands_there_ = false;              ///< at the goal, with the heading wanted
   float turned_ = 0.0F;                    ///< the side that it turned to last
   float to_go_s_ = 0.0F, heading_ = 0.0F;  ///< at the last decision

@@ -48,6 +48,9 @@ struct StallState {
   float least_to_go_s = 0.0F;
   bool is_alone = false;   ///< no pedestrian is about
   float wound_rad = 0.0F;  ///< net turn since then, left positive
+  /// Seconds that passed less twice those by which the time to go fell, 0 or more: a little way does not make good a
+  /// long wait.
+  float lost_s = 0.0F;
 
   [[nodiscard]] JAYWALK_CELL bool gets_on(float to_go_s) const {
     constexpr float kFallsByS = 0.5F;

@@ -139,6 +139,21 @@ TEST_CASE("a wall that comes to be known makes the way longer, and no stall") {
   CHECK(drive.planner().decision().stall.for_s < 1.5F);
 }
 
+TEST_CASE("seconds that bring it no nearer are lost; a little way does not win them back") {
+  test::Guided ground;
+  Drive drive(ground, {4.0, 0.0});
+  (void)drive.run(3.0);
+  CHECK(drive.planner().decision().stall.lost_s < 1.0F);
+  ground.wall({2.5, -4.0}, {2.5, 4.0}).wall({-2.0, -4.0}, {-2.0, 4.0}).wall({-2.0, -4.0}, {2.5, -4.0});
+  ground.wall({-2.0, 4.0}, {2.5, 4.0});
+  (void)drive.run(6.0);
+  const float lost_s = drive.planner().decision().stall.lost_s;
+  CHECK(lost_s > 4.0F);
+  drive.go_to({-1.0, 0.0});
+  (void)drive.run(0.5);
+  CHECK(drive.planner().decision().stall.lost_s < 1.0F);  // of another goal
+}
+
 TEST_CASE("it turns first where the goal lies behind") {
   test::Guided g;
   Drive drive(g, {-3.0, 0.5});

@@ -311,6 +311,19 @@ TEST_CASE("among trajectories that all touch somebody while moving the slower an
   CHECK(slows.conflict < drives.conflict);
 }
 
+TEST_CASE("having lost many seconds it asks people to let it pass, and touches none for that") {
+  const auto conflict_after = [](float lost_s, float from_m) {
+    Oncoming comes(from_m);
+    comes.situation.stall.lost_s = lost_s;
+    return comes.cost_of(0.6F, kSteps, false).conflict;
+  };
+  const float far_m = 5.0F, near_m = 0.9F;
+  CHECK(conflict_after(8.0F, far_m) == conflict_after(0.0F, far_m));
+  CHECK(conflict_after(8.5F, far_m) == Approx(0.5F * conflict_after(0.0F, far_m)));
+  CHECK(conflict_after(20.0F, far_m) < 0.05F * conflict_after(0.0F, far_m));
+  CHECK(conflict_after(60.0F, near_m) > 100.0F);  // touched within kSafeForS
+}
+
 TEST_CASE("where every trajectory touches somebody, the one that is at rest soonest is proposed and is best") {
   const Oncoming near(0.9F);
   const TrajectoryProposals proposals(near.situation, 0.0F);

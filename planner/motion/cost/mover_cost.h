@@ -33,7 +33,8 @@ class WorstMeetings {
 /// Movers: the chance of touching or forcing one, and nearness to them. They walk as they do, whatever the robot does.
 class MoverCost {
  public:
-  explicit MoverCost(const Situation& s) : s_(s) {}
+  explicit MoverCost(const Situation& s)
+      : s_(s), yielding_(1.0F / (1.0F + std::max(0.0F, s.stall.lost_s - price::kYieldsForS) / price::kYieldsLessS)) {}
 
   /// `step`: of the futures; `t`: seconds from now.
   void add(const RobotState& r, const cell::Heading& along, int step, float t, Cost& cost) noexcept {
@@ -93,9 +94,10 @@ class MoverCost {
     const float later = cell::exp(-t / price::kConflictFadesS);
     const float fast = std::min(1.0F, rim_mps / price::kTouchedAtMps);
     const float hard = later * (price::kTouchedSlowly + (1.0F - price::kTouchedSlowly) * fast);
-    cost.conflict += s_.conflict_price_s * met_.add(all.met, later);
-    cost.conflict += s_.conflict_price_s * met_.add(all.stood & ~all.met, price::kStandingWeight * later);
-    cost.conflict += price::kConflict * touched_.add(all.touched, hard);
+    const float met_s = yielding_ * s_.conflict_price_s;
+    cost.conflict += met_s * met_.add(all.met, later);
+    cost.conflict += met_s * met_.add(all.stood & ~all.met, price::kStandingWeight * later);
+    cost.conflict += (t > kSafeForS ? yielding_ : 1.0F) * price::kConflict * touched_.add(all.touched, hard);
     if (t > kSafeForS) return;
     hit_ |= all.touched;
     cost.hit_share = static_cast<float>(std::popcount(hit_)) / kFutures;
@@ -112,6 +114,8 @@ class MoverCost {
   }
 
   const Situation& s_;
+  /// Share of the price of what can still be changed: being in somebody's way, and touching later than kSafeForS.
+  float yielding_;
   /// Touching is priced apart from being in a mover's way.
   WorstMeetings met_, touched_;
   std::uint32_t hit_ = 0;  ///< futures in which the moving robot touched a mover within kSafeForS: a bit each
