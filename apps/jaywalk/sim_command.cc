@@ -41,6 +41,7 @@ struct SimOptions {
   bool json = false;                           ///< print the summary, in place of a line
   std::optional<view::ViewAddress> view = {};  ///< serve the live page there
   bool until_arrived = false;                  ///< with it too: ends at the first arrival
+  bool endless = false;                        ///< goes on until it is interrupted, and its page may change the world
 };
 
 SimOptions sim_options;
@@ -128,6 +129,9 @@ sim::Scenario scenario_for(const SimOptions& options) {
   if (scenario.stick && (never_stops || !options.rival.empty()))
     throw StartupError(options.scenario.string() + ": [stick]: a person who steers is obeyed by no other planner",
                        "run without --mode paper, --constant-speed and --planner");
+  if (options.endless && never_stops)
+    throw StartupError("--endless: a robot that keeps its speed takes no goals from the page",
+                       "run without --mode paper and --constant-speed");
   if (options.mode == PlanMode::kPaper) scenario.pose_source.enabled = true;  // the paper's localisation system
   return scenario;
 }
@@ -163,7 +167,7 @@ std::unique_ptr<SimView> view_for(const SimOptions& options, const ControlSetup&
                                   sim::Simulation& simulation) {
   if (!options.view) return nullptr;
   auto view = std::make_unique<SimView>(*options.view, setup, simulation.hal().panel);
-  view->begin(scenario.name, simulation.walls());
+  view->begin(scenario.name, simulation.walls(), options.endless ? &simulation : nullptr);
   return view;
 }
 
@@ -260,7 +264,7 @@ int run_sim(SimOptions options) {
     ended = outcome(scenario, simulation.truth(), t, runner.setup().applies_verdict(), set_out);
     const bool may_go_on = view && !options.until_arrived && !interruption.came() && view->is_watched();
     if (may_go_on && (has_arrived(ended) || !t.input.has_goal)) set_out = t.now;
-    if (may_go_on && has_arrived(ended)) ended.clear();
+    if (options.endless || (may_go_on && has_arrived(ended))) ended.clear();
     if (ended.empty() && interruption.came()) ended = "interrupted";
     if (view) view->follow(runner, ended, interruption);
     if (options.realtime && !view) std::this_thread::sleep_until(began + t.now.time_since_epoch());
@@ -321,7 +325,12 @@ void add_sim(CLI::App& app, int& exit_code) {
   sim->add_flag("--mcap", sim_options.mcap, "Leave run.mcap as well, as export would");
   sim->add_flag("--json", sim_options.json, "Print the summary, in place of a line");
   add_view(*sim, sim_options.view);
-  sim->add_flag("--until-arrived", sim_options.until_arrived, "End at the first arrival, watched or not");
+  CLI::Option* const until = sim->add_flag("--until-arrived", sim_options.until_arrived,
+                                           "End at the first arrival, watched or not");
+  sim->add_flag_callback(
+         "--endless", [] { sim_options.endless = true, sim_options.view = sim_options.view.value_or(view::ViewAddress{}); },
+         "Play with the world on the live page: goals, faults, walkers, the speed of time; Ctrl-C ends it")
+      ->excludes(until);
   sim->callback([&exit_code] { exit_code = run_sim(sim_options); });
 }
 

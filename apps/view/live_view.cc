@@ -104,6 +104,10 @@ std::vector<view::FoxgloveParameter> parameters_of(const ControlSetup& setup) {
 
 constexpr auto kPausedLook = std::chrono::milliseconds(5);  // at the page's orders while paused
 constexpr int kLooksUntilTold = 20;
+constexpr double kFaultLasts_s = 5.0;  // that a person begins
+
+/// In FaultKind's order.
+std::span<const std::string> played_faults() { return sim::scenario_keys().find("faults", "kind").choices; }
 
 }  // namespace
 
@@ -231,11 +235,24 @@ void SimView::take(const view::ViewOrder& order, const view::Reply& reply) {
   if (order.stop) reply(takes_goals_ ? "stopping\n" : "refused: a run that keeps its speed does not stop\n");
   if (order.reset) reply(stands_ ? "reset\n" : "refused: the robot still moves; try again when it stands\n");
   if (order.here) reply("refused: a simulated robot stands where it is\n");
+  if (order.plays() && played_ == nullptr) reply("refused: start the simulation with --endless\n");
   if (order.goal && is_stopped_) reply("refused: stopped by this page; press Reset first\n");
 }
 
-void SimView::begin(const std::string& title, std::span<const sim::WallSegment> walls) {
-  live_.begin({.title = title, .walls = walls, .takes_goals = takes_goals_});
+void SimView::begin(const std::string& title, std::span<const sim::WallSegment> walls, sim::Simulation* played) {
+  played_ = played;
+  view::HelloScene hello{.title = title, .walls = walls, .takes_goals = takes_goals_};
+  if (played != nullptr) hello.faults = played_faults();
+  live_.begin(std::move(hello));
+}
+
+void SimView::play(const view::ViewOrder& order) {
+  if (played_ == nullptr) return;
+  if (order.pace) pace_ = *order.pace;
+  if (order.fault && *order.fault < played_faults().size())
+    played_->begin_fault(static_cast<sim::FaultKind>(*order.fault), kFaultLasts_s);
+  for (int k = 0; k < std::abs(order.walkers); ++k)
+    if (!(order.walkers > 0 ? played_->add_walker() : played_->remove_walker())) return;
 }
 
 void SimView::follow(const LoopRunner& runner, const std::string& ended, const Interruption& interruption) {
@@ -248,7 +265,8 @@ void SimView::follow(const LoopRunner& runner, const std::string& ended, const I
 /// A run that was held up does not hurry to make up for it.
 void SimView::keep_pace() {
   const auto now = std::chrono::steady_clock::now();
-  due_ = std::max(due_ + std::chrono::duration_cast<std::chrono::steady_clock::duration>(tick_), now);
+  const Duration wait = duration_from_seconds(to_seconds(tick_) / pace_);
+  due_ = std::max(due_ + std::chrono::duration_cast<std::chrono::steady_clock::duration>(wait), now);
   std::this_thread::sleep_until(due_);
 }
 
@@ -256,6 +274,7 @@ void SimView::obey_while_paused(const Interruption& interruption) {
   for (int looks = 0; !interruption.came(); ++looks, std::this_thread::sleep_for(kPausedLook)) {
     const view::ViewOrder order = orders_.take();
     if (order.pause) paused_ = *order.pause;
+    play(order);
     if (takes_goals_) panel_.obey(order, stands_);
     is_stopped_ = panel_.is_pressed();
     if (!paused_ || order.step) return;

@@ -20,6 +20,7 @@
 #include "apps/view/view_server.h"
 #include "firmware/control_loop.h"
 #include "firmware/safety/reasons.h"
+#include "hal/sim/simulation.h"
 #include "hal/types/geometry.h"
 
 namespace jaywalk::view {
@@ -142,7 +143,8 @@ class SimView {
   SimView(const view::ViewAddress& where, const ControlSetup& setup, OperatorPanel& panel);
 
   [[nodiscard]] OperatorPanel& panel() noexcept { return panel_; }
-  void begin(const std::string& title, std::span<const sim::WallSegment> walls);
+  /// `played`: the world that a person may play with from the page; null: none.
+  void begin(const std::string& title, std::span<const sim::WallSegment> walls, sim::Simulation* played);
   /// After a tick: shows it, waits for the wall clock, and while the page has paused the run. `ended`: the outcome.
   void follow(const LoopRunner& runner, const std::string& ended, const Interruption& interruption);
   /// Whether a client that may give the next goal is connected.
@@ -153,6 +155,7 @@ class SimView {
  private:
   /// Thread: the page's.
   void take(const view::ViewOrder& order, const view::Reply& reply);
+  void play(const view::ViewOrder& order);
   void keep_pace();
   void obey_while_paused(const Interruption& interruption);
 
@@ -162,6 +165,8 @@ class SimView {
   Duration tick_;
   std::chrono::steady_clock::time_point due_ = std::chrono::steady_clock::now();
   bool paused_ = false;
+  sim::Simulation* played_ = nullptr;
+  double pace_ = 1.0;  ///< seconds of the world in a second
   std::atomic<bool> stands_{true}, is_stopped_{false};  ///< at rest; by the page's Stop
   LiveView live_;
 };

@@ -13,6 +13,7 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr double kFarthest_m = 1e6;
+constexpr double kSlowest = 0.1, kFastest = 100.0;  ///< pace
 
 std::optional<GoalOrder> goal_of(const Json& json) {
   if (!json.is_array() || json.size() < 2 || json.size() > 3) return std::nullopt;
@@ -56,6 +57,10 @@ std::optional<ViewOrder> parse_order(std::string_view json) {
     const auto pose = (name == "goal" ? order.goal : order.here) = goal_of(value);
     return pose ? std::optional(order) : std::nullopt;
   }
+  if (name == "fault" && value.is_number_unsigned()) order.fault = value.get<std::size_t>();
+  if (name == "walkers" && (value == 1 || value == -1)) order.walkers = value.get<int>();
+  if (name == "pace" && value.is_number() && value >= kSlowest && value <= kFastest) order.pace = value.get<double>();
+  if (order.plays()) return order;
   if (!value.is_boolean()) return std::nullopt;
   if (name == "pause") order.pause = value.get<bool>();
   if (name == "stop") order.stop = value.get<bool>();
@@ -71,6 +76,9 @@ void ViewOrders::add(const ViewOrder& order) {
   waiting_.reset = waiting_.reset || order.reset;
   if (order.pause) waiting_.pause = order.pause;
   waiting_.step = waiting_.step || order.step;
+  if (order.fault) waiting_.fault = order.fault;
+  waiting_.walkers += order.walkers;
+  if (order.pace) waiting_.pace = order.pace;
 }
 
 ViewOrder ViewOrders::take() {

@@ -18,10 +18,15 @@ struct ViewOrder {
   bool stop = false;
   bool reset = false;
   bool step = false;
+  // Of a world that a person plays with.
+  std::optional<std::size_t> fault;  ///< its number in the hello's list
+  int walkers = 0;                   ///< so many more, or fewer
+  std::optional<double> pace;        ///< seconds of the world in a second
+  [[nodiscard]] bool plays() const noexcept { return fault || walkers != 0 || pace; }
 };
 
 /// {"goal":[x,y]}, {"goal":[x,y,heading]}, {"here":[x,y,heading]}, {"stop":true}, {"reset":true}, {"pause":true},
-/// {"step":true}; m and rad in the map. Nothing where it is none of these or a number is no place (beyond 1e6 m) or no
+/// {"step":true}, {"fault":N}, {"walkers":1}, {"pace":2}; m and rad in the map. Nothing where it is none of these or a number is no place (beyond 1e6 m) or no
 /// angle (beyond pi).
 [[nodiscard]] std::optional<ViewOrder> parse_order(std::string_view json);
 
@@ -69,7 +74,7 @@ class SteeredPanel final : public OperatorPanel {
   /// Between ticks.
   void obey(const ViewOrder& order, bool at_rest) noexcept {
     if (order.stop) has_goal_ = false, pressed_ = true, ++stops_;
-    if (order.reset && !order.stop && at_rest) resets_ = std::exchange(pressed_, false);
+    if (order.reset && !order.stop && at_rest) resets_ = true, pressed_ = false;
     if (order.goal && !pressed_) goal_ = *order.goal, has_goal_ = true;
   }
   [[nodiscard]] bool is_pressed() const noexcept { return pressed_; }

@@ -271,6 +271,7 @@ std::string to_json(const HelloScene& hello) {
                      {"max_speed_mps", hello.model.limits.max_speed_mps},
                      {"walls", walls},
                      {"reasons", reasons_in_words()},
+                     {"faults", hello.faults},
                      {"ground", hello.known == nullptr ? Ordered(nullptr) : ground_of(*hello.known)}});
 }
 

@@ -81,12 +81,32 @@ Vec2 free_place(const Ground& ground, const Box& within, double radius_m, std::s
 Wanderers::Wanderers(const Ground& ground, std::uint64_t seed) : walls_(ground.walls) {
   Random random(seed, Purpose::kPlacement);
   for (const WanderSpec& spec : ground.scenario.wanderers)
-    for (int k = 0; k < spec.count; ++k) place(spec, ground, seed, random);
+    for (int k = 0; k < spec.count; ++k) {
+      const Vec2 position = free_place(ground, walls_.bounds(), spec.radius_m, movers_, random);
+      place(spec, position, seed, static_cast<std::uint32_t>(movers_.size() + 1), random);
+    }
 }
 
-void Wanderers::place(const WanderSpec& spec, const Ground& ground, std::uint64_t seed, Random& random) {
-  const auto id = static_cast<std::uint32_t>(movers_.size() + 1);
-  const Vec2 position = free_place(ground, walls_.bounds(), spec.radius_m, movers_, random);
+bool Wanderers::add(const Ground& ground, std::uint64_t seed, std::uint32_t id, std::span<const MoverTruth> placed) {
+  const std::vector<WanderSpec>& kinds = ground.scenario.wanderers;
+  const WanderSpec spec = kinds.empty() ? WanderSpec{} : kinds.front();
+  Random random(seed, Purpose::kPlacement, id);
+  try {
+    place(spec, free_place(ground, walls_.bounds(), spec.radius_m, placed, random), seed, id, random);
+  } catch (const StartupError&) {
+    return false;
+  }
+  return true;
+}
+
+bool Wanderers::remove() noexcept {
+  if (movers_.empty()) return false;
+  movers_.pop_back();
+  minds_.pop_back();
+  return true;
+}
+
+void Wanderers::place(const WanderSpec& spec, Vec2 position, std::uint64_t seed, std::uint32_t id, Random& random) {
   const double heading = random.uniform(-kPi, kPi);
   movers_.push_back(
       {.id = id, .position = position, .heading = heading, .radius_m = spec.radius_m, .on_legs = spec.legs});

@@ -31,6 +31,11 @@ class Wanderers {
   /// Places them at random. Throws StartupError when there is no room. The ground's walls outlive this.
   Wanderers(const Ground& ground, std::uint64_t seed);
 
+  /// One more, of the scenario's first kind. False where there is no room.
+  [[nodiscard]] bool add(const Ground& ground, std::uint64_t seed, std::uint32_t id, std::span<const MoverTruth> placed);
+  /// One fewer. False where there is none.
+  [[nodiscard]] bool remove() noexcept;
+
   /// Moves all on by `step_s`. `others` are movers that do not wander.
   void step(double step_s, const RobotBody& robot, std::span<const MoverTruth> others) noexcept;
 
@@ -54,7 +59,7 @@ class Wanderers {
     std::span<const MoverTruth> others;
   };
 
-  void place(const WanderSpec& spec, const Ground& ground, std::uint64_t seed, Random& random);
+  void place(const WanderSpec& spec, Vec2 position, std::uint64_t seed, std::uint32_t id, Random& random);
   [[nodiscard]] Blocker ahead(std::size_t self, double heading, const Surroundings& near) const noexcept;
   [[nodiscard]] Blocker touched(std::size_t self, Vec2 next, const Surroundings& near) const noexcept;
   void walk(std::size_t self, double step_s, const Surroundings& near) noexcept;

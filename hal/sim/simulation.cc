@@ -103,6 +103,8 @@ std::vector<WallSegment> drawn(const Walls& walls) {
 }  // namespace
 
 struct Simulation::State {
+  const Scenario scenario;
+  const std::uint64_t seed;
   World world;
   Sensors sensors;
   std::vector<SimLaser> lasers;
@@ -112,8 +114,10 @@ struct Simulation::State {
   SimClock clock{world, sensors};
   std::vector<WallSegment> drawn_walls;
 
-  State(const Scenario& scenario, std::uint64_t seed)
-      : world(scenario, seed),
+  State(const Scenario& given, std::uint64_t random_seed)
+      : scenario(given),
+        seed(random_seed),
+        world(scenario, seed),
         sensors(scenario, seed),
         panel(world, scenario, seed),
         drawn_walls(drawn(world.walls())) {
@@ -134,6 +138,9 @@ Hal Simulation::hal() noexcept {
 }
 
 const Truth& Simulation::truth() const noexcept { return state_->world.truth(); }
+void Simulation::begin_fault(FaultKind kind, double for_s) { state_->world.begin_fault(kind, for_s); }
+bool Simulation::add_walker() { return state_->world.add_walker(state_->scenario, state_->seed); }
+bool Simulation::remove_walker() noexcept { return state_->world.remove_walker(); }
 double Simulation::static_shortest_path_m() const { return state_->world.free_grid().shortest_path_m(); }
 std::span<const WallSegment> Simulation::walls() const noexcept { return state_->drawn_walls; }
 

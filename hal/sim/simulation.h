@@ -48,6 +48,15 @@ class Simulation {
   [[nodiscard]] Hal hal() noexcept;  ///< clock starts at zero
   [[nodiscard]] const Truth& truth() const noexcept;
 
+  // What a person does who plays with the world, between two ticks.
+
+  /// As FaultSpec, from now on.
+  void begin_fault(FaultKind kind, double for_s);
+  /// One wandering mover more, of the scenario's first kind. False where there is no room.
+  [[nodiscard]] bool add_walker();
+  /// False where there is none.
+  [[nodiscard]] bool remove_walker() noexcept;
+
   /// Length (m) of the shortest path for the footprint's inscribed circle from start to goal among the walls alone;
   /// infinity where there is none.
   [[nodiscard]] double static_shortest_path_m() const;

@@ -86,6 +86,13 @@ const Scenario& World::with_free_places(const Scenario& scenario) const {
   return scenario;
 }
 
+/// As far from the robot as the scenario's own are from its start.
+bool World::add_walker(Scenario scenario, std::uint64_t seed) {
+  scenario.start = plant_.map_from_robot();
+  legs_.emplace_back();
+  return wanderers_.add({scenario, walls_, grid_}, seed, static_cast<std::uint32_t>(legs_.size()), movers_);
+}
+
 bool World::fault_active(FaultKind kind) const noexcept {
   const double now_s = to_seconds(truth_.now);
   return std::any_of(faults_.begin(), faults_.end(),
@@ -132,7 +139,7 @@ void World::keep_out_of_solids(const Pose2& before) noexcept {
 }
 
 void World::gather_movers() noexcept {
-  movers_.assign(wanderers_.movers().begin(), wanderers_.movers().end());  // room for all was taken at construction
+  movers_.assign(wanderers_.movers().begin(), wanderers_.movers().end());
   movers_.insert(movers_.end(), recorded_.movers().begin(), recorded_.movers().end());
   movers_.insert(movers_.end(), social_.movers().begin(), social_.movers().end());
 }
@@ -158,7 +165,7 @@ void World::move_movers() noexcept {
 }
 
 void World::see_movers() noexcept {
-  seen_.clear();  // room for all was taken at construction
+  seen_.clear();
   for (const MoverTruth& m : movers_) {
     if (!m.on_legs) {
       seen_.push_back({m.position, m.radius_m});

@@ -42,6 +42,13 @@ class World {
   /// the movers.
   World(const Scenario& scenario, std::uint64_t seed);
 
+  /// A person who plays with the world, between two steps: Simulation.
+  void begin_fault(FaultKind kind, double for_s) {
+    faults_.push_back({.at_s = to_seconds(truth_.now), .for_s = for_s, .kind = kind, .way = {1.0, 0.0, 1.0}});
+  }
+  [[nodiscard]] bool add_walker(Scenario scenario, std::uint64_t seed);
+  [[nodiscard]] bool remove_walker() noexcept { return wanderers_.remove(); }
+
   /// Moves on by kWorldStep.
   void step() noexcept;
 

@@ -23,6 +23,11 @@ TEST_CASE("orders are a goal with or without a heading, stop, reset, pause or st
   CHECK(parse_order(R"({"reset":true})")->reset);
   CHECK(parse_order(R"({"pause":false})")->pause == false);
   CHECK(parse_order(R"({"step":true})")->step);
+  CHECK(parse_order(R"({"fault":7})")->fault == 7);
+  CHECK(parse_order(R"({"walkers":-1})")->walkers == -1);
+  CHECK(parse_order(R"({"pace":0.25})")->pace == 0.25);
+  for (const char* const text : {R"({"fault":-1})", R"({"walkers":1000})", R"({"pace":0})", R"({"pace":1e9})"})
+    CHECK_FALSE(parse_order(text));
 }
 
 TEST_CASE("what is no order is left out") {
@@ -80,8 +85,11 @@ TEST_CASE("the page's stop stays pressed until its reset, at rest, no goal count
   CHECK_FALSE(panel.latest().reset);
   panel.obey(goal, true);
   CHECK(panel.latest().goal_in_map == Vec2{1.0, 2.0});
+  panel.obey(reset, false);
+  CHECK_FALSE(panel.latest().reset);
   panel.obey(reset, true);
-  CHECK_FALSE(panel.latest().reset);  // nothing is pressed
+  CHECK(panel.latest().reset);  // of a fault that the page did not cause
+  CHECK_FALSE(panel.latest().reset);
 }
 
 TEST_CASE(

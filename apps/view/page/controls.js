@@ -4,7 +4,7 @@ const kKeys = [['Space', 'Stop', ask_stop], ['r', 'let it move again after a sto
   ['ArrowLeft', 'a second back', () => { plays = false; choose(shown - Math.round(1 / hello.tick_s)); }], ['ArrowRight', 'a second on', () => { plays = false; choose(shown + Math.round(1 / hello.tick_s)); }],
   ['End', 'live', () => element('live').click()], ['+', 'nearer', () => zoom(1.3)], ['-', 'farther', () => zoom(1 / 1.3)], ['0', 'all of it', () => aim_at('whole')],
   ['f', 'keep the robot in the middle', () => aim_at('along')], ['w', 'map up', () => pan(0, step_m())], ['a', 'map left', () => pan(-step_m(), 0)], ['s', 'map down', () => pan(0, -step_m())],
-  ['d', 'map right', () => pan(step_m(), 0)], ['l', 'legend', () => show_card('legend')], ['n', 'night or day', () => show_theme(theme() === 'dark' ? 'light' : 'dark')], ['?', 'these keys', () => show_card('keys')]];
+  ['d', 'map right', () => pan(step_m(), 0)], ['l', 'legend', () => show_card('legend')], ['e', 'play with an endless world', show_world], ['n', 'night or day', () => show_theme(theme() === 'dark' ? 'light' : 'dark')], ['?', 'these keys', () => show_card('keys')]];
 const step_m = () => map.height / view.scale / 8;
 
 function set_paused(value) { paused = value; order({pause: value}); axis(); }
@@ -17,6 +17,7 @@ element('step').onclick = () => {
 element('time').oninput = event => { plays = false; choose(Number(event.target.value)); };
 const kButtons = {stop: ask_stop, reset: ask_reset, undo, go: accept, leave: cancel_proposal, nearer: () => zoom(1.3), farther: () => zoom(1 / 1.3),
   whole: () => aim_at('whole'), along: () => aim_at('along'), key: () => show_card('legend'), help: () => show_card('keys'),
+  play: show_world, more: () => order({walkers: 1}), fewer: () => order({walkers: -1}), strike: () => order({fault: element('fault').selectedIndex}),
   live: () => { plays = false; shown = newest; follows = true; axis(); draw_soon(); }};
 for (const id in kButtons) element(id).onclick = kButtons[id];
 onkeydown = event => {

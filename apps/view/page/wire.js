@@ -37,6 +37,7 @@ function take_hello(message) {
   over = message.over === true;
   element('title').textContent = document.title = message.title;
   ground = null;
+  offer_world();
   if (message.keeps_ticks) order({past: true});
 }
 let forgets = 0;
