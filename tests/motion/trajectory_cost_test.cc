@@ -318,9 +318,9 @@ TEST_CASE("having lost many seconds it asks people to let it pass, and touches n
     return comes.cost_of(0.6F, kSteps, false).conflict;
   };
   const float far_m = 5.0F, near_m = 0.9F;
-  CHECK(conflict_after(8.0F, far_m) == conflict_after(0.0F, far_m));
-  CHECK(conflict_after(8.5F, far_m) == Approx(0.5F * conflict_after(0.0F, far_m)));
-  CHECK(conflict_after(20.0F, far_m) < 0.05F * conflict_after(0.0F, far_m));
+  CHECK(conflict_after(20.0F, far_m) == conflict_after(0.0F, far_m));
+  CHECK(conflict_after(20.5F, far_m) == Approx(0.5F * conflict_after(0.0F, far_m)));
+  CHECK(conflict_after(32.0F, far_m) < 0.05F * conflict_after(0.0F, far_m));
   CHECK(conflict_after(60.0F, near_m) > 100.0F);  // touched within kSafeForS
 }
 
