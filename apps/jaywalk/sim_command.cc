@@ -325,10 +325,11 @@ void add_sim(CLI::App& app, int& exit_code) {
   sim->add_flag("--mcap", sim_options.mcap, "Leave run.mcap as well, as export would");
   sim->add_flag("--json", sim_options.json, "Print the summary, in place of a line");
   add_view(*sim, sim_options.view);
-  CLI::Option* const until = sim->add_flag("--until-arrived", sim_options.until_arrived,
-                                           "End at the first arrival, watched or not");
+  CLI::Option* const until =
+      sim->add_flag("--until-arrived", sim_options.until_arrived, "End at the first arrival, watched or not");
   sim->add_flag_callback(
-         "--endless", [] { sim_options.endless = true, sim_options.view = sim_options.view.value_or(view::ViewAddress{}); },
+         "--endless",
+         [] { sim_options.endless = true, sim_options.view = sim_options.view.value_or(view::ViewAddress{}); },
          "Play with the world on the live page: goals, faults, walkers, the speed of time; Ctrl-C ends it")
       ->excludes(until);
   sim->callback([&exit_code] { exit_code = run_sim(sim_options); });

@@ -166,7 +166,7 @@ class SimView {
   std::chrono::steady_clock::time_point due_ = std::chrono::steady_clock::now();
   bool paused_ = false;
   sim::Simulation* played_ = nullptr;
-  double pace_ = 1.0;  ///< seconds of the world in a second
+  double pace_ = 1.0;                                   ///< seconds of the world in a second
   std::atomic<bool> stands_{true}, is_stopped_{false};  ///< at rest; by the page's Stop
   LiveView live_;
 };

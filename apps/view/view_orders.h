@@ -26,8 +26,8 @@ struct ViewOrder {
 };
 
 /// {"goal":[x,y]}, {"goal":[x,y,heading]}, {"here":[x,y,heading]}, {"stop":true}, {"reset":true}, {"pause":true},
-/// {"step":true}, {"fault":N}, {"walkers":1}, {"pace":2}; m and rad in the map. Nothing where it is none of these or a number is no place (beyond 1e6 m) or no
-/// angle (beyond pi).
+/// {"step":true}, {"fault":N}, {"walkers":1}, {"pace":2}; m and rad in the map. Nothing where it is none of these or a
+/// number is no place (beyond 1e6 m) or no angle (beyond pi).
 [[nodiscard]] std::optional<ViewOrder> parse_order(std::string_view json);
 
 /// Orders wait here until they are taken; a later one of a kind replaces the earlier, and a stop takes back the goal

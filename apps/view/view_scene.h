@@ -135,9 +135,9 @@ struct HelloScene {
   std::span<const sim::WallSegment> walls = {};  ///< the world's, where there is one
   const KnownMap* known = nullptr;               ///< the robot's, where it was given one
   double tick_s = 0.02;
-  bool takes_goals = true;   ///< and the Stop button
-  bool takes_pauses = true;  ///< Pause and Step hold the program, not only the page
-  bool keeps_ticks = true;   ///< any tick can be asked for
+  bool takes_goals = true;                   ///< and the Stop button
+  bool takes_pauses = true;                  ///< Pause and Step hold the program, not only the page
+  bool keeps_ticks = true;                   ///< any tick can be asked for
   std::span<const std::string> faults = {};  ///< that a person may begin in its world
 };
 [[nodiscard]] std::string to_json(const HelloScene& hello);

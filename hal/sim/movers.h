@@ -32,7 +32,8 @@ class Wanderers {
   Wanderers(const Ground& ground, std::uint64_t seed);
 
   /// One more, of the scenario's first kind. False where there is no room.
-  [[nodiscard]] bool add(const Ground& ground, std::uint64_t seed, std::uint32_t id, std::span<const MoverTruth> placed);
+  [[nodiscard]] bool add(const Ground& ground, std::uint64_t seed, std::uint32_t id,
+                         std::span<const MoverTruth> placed);
   /// One fewer. False where there is none.
   [[nodiscard]] bool remove() noexcept;
 

@@ -21,7 +21,7 @@ constexpr float kTurnBlocked_s = 5.0F;      ///< without progress, at the goal
 /// and its way has not. Counted as a stall, a dead end made the robot impatient all the way out of it: a loop in 5 of
 /// 32 runs (16 movers, maps 1 to 4, seeds 9400 to 9431), in none without.
 constexpr float kMapChanges_s = 1.0F;
-constexpr float kWonBack = 2.0F, kMostLost_s = 60.0F;  ///< StallState::lost_s
+constexpr float kWonBack = 2.0F, kMostLost_s = 60.0F;         ///< StallState::lost_s
 constexpr Duration kGuideHoldsFor = std::chrono::seconds(1);  ///< as the supervisor's longest age of a plan
 
 /// Hands every trajectory that a decision tries to `look`, which keeps the best of them in `best`.

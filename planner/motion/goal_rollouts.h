@@ -46,9 +46,9 @@ class GoalRollouts final : public RolloutMotion {
   Cost best_cost_;
   StallState stall_;
   Time stalled_since_ = kNever, noted_ = kNever;  ///< `noted_`: the last decision
-  bool stands_there_ = false;              ///< at the goal, with the heading wanted
-  float turned_ = 0.0F;                    ///< the side that it turned to last
-  float to_go_s_ = 0.0F, heading_ = 0.0F;  ///< at the last decision
+  bool stands_there_ = false;                     ///< at the goal, with the heading wanted
+  float turned_ = 0.0F;                           ///< the side that it turned to last
+  float to_go_s_ = 0.0F, heading_ = 0.0F;         ///< at the last decision
   KnownBehind known_behind_;
 };
 

@@ -114,7 +114,7 @@ class MoverCost {
   }
 
   const Situation& s_;
-  /// Share of the price of what can still be changed: being in somebody's way, and touching later than kSafeForS.
+  /// Share of the price of what can still be changed: being in a mover's way, and touching later than kSafeForS.
   float yielding_;
   /// Touching is priced apart from being in a mover's way.
   WorstMeetings met_, touched_;

@@ -20,9 +20,9 @@ inline constexpr float kLeastConflict = 100.0F, kAboutM = 5.0F, kMetWidthM = 1.6
 /// The same for forcing stopped the robot in people's lanes (11 of 16 runs strict, not 13).
 inline constexpr float kTouchedSlowly = 0.2F, kTouchedAtMps = 0.6F;
 /// Seconds lost (StallState) until conflicts ahead count less, and in which they then count half, a third, ...: it asks
-/// people to let it pass. Without, from 20, from 8 s on, 15, 19, 20 of 24 runs arrived, 5, 6, 7 strict, after 67, 60, 55 s
-/// (wheelchair, WORLDS rooms, seeds 6401 to 6424); from 8 s on 85 of 100 were strict among 16 movers, not 94 (maps 1 to
-/// 4, seeds 4001 to 4025). Dearer seconds instead made touching cheaper, too: 2 of 24 touched.
+/// people to let it pass. Without, from 20, from 8 s on, 15, 19, 20 of 24 runs arrived, 5, 6, 7 strict, after 67, 60,
+/// 55 s (wheelchair, WORLDS rooms, seeds 6401 to 6424); from 8 s on 85 of 100 were strict among 16 movers, not 94 (maps
+/// 1 to 4, seeds 4001 to 4025). Dearer seconds instead made touching cheaper, too: 2 of 24 touched.
 inline constexpr float kYieldsForS = 20.0F, kYieldsLessS = 0.5F;
 inline constexpr float kConflictFadesS = 4.0F;  ///< ahead by so much it counts less by a factor e: decided on again
 /// Of a conflict with a mover that has stood for long: should it set out, the robot sees that before it drives on
