@@ -143,7 +143,7 @@ class SimView {
   SimView(const view::ViewAddress& where, const ControlSetup& setup, OperatorPanel& panel);
 
   [[nodiscard]] OperatorPanel& panel() noexcept { return panel_; }
-  /// `played`: the world that a person may play with from the page; null: none.
+  /// `played`: the simulation that the page's orders may change (jaywalk sim --endless); null: none.
   void begin(const std::string& title, std::span<const sim::WallSegment> walls, sim::Simulation* played);
   /// After a tick: shows it, waits for the wall clock, and while the page has paused the run. `ended`: the outcome.
   void follow(const LoopRunner& runner, const std::string& ended, const Interruption& interruption);
@@ -166,7 +166,7 @@ class SimView {
   std::chrono::steady_clock::time_point due_ = std::chrono::steady_clock::now();
   bool paused_ = false;
   sim::Simulation* played_ = nullptr;
-  double pace_ = 1.0;                                   ///< seconds of the world in a second
+  double pace_ = 1.0;                                   ///< simulated seconds a second
   std::atomic<bool> stands_{true}, is_stopped_{false};  ///< at rest; by the page's Stop
   LiveView live_;
 };

@@ -18,10 +18,10 @@ struct ViewOrder {
   bool stop = false;
   bool reset = false;
   bool step = false;
-  // Of a world that a person plays with.
-  std::optional<std::size_t> fault;  ///< its number in the hello's list
-  int walkers = 0;                   ///< so many more, or fewer
-  std::optional<double> pace;        ///< seconds of the world in a second
+  // Orders to an endless world (jaywalk sim --endless).
+  std::optional<std::size_t> fault;  ///< number of the fault to begin, in the hello's list
+  int walkers = 0;                   ///< number of walkers to add; negative: to remove
+  std::optional<double> pace;        ///< simulated seconds a second
   [[nodiscard]] bool plays() const noexcept { return fault || walkers != 0 || pace; }
 };
 

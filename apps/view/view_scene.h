@@ -138,7 +138,7 @@ struct HelloScene {
   bool takes_goals = true;                   ///< and the Stop button
   bool takes_pauses = true;                  ///< Pause and Step hold the program, not only the page
   bool keeps_ticks = true;                   ///< any tick can be asked for
-  std::span<const std::string> faults = {};  ///< that a person may begin in its world
+  std::span<const std::string> faults = {};  ///< faults that the page may begin; empty but for an endless world
 };
 [[nodiscard]] std::string to_json(const HelloScene& hello);
 

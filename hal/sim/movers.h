@@ -31,10 +31,10 @@ class Wanderers {
   /// Places them at random. Throws StartupError when there is no room. The ground's walls outlive this.
   Wanderers(const Ground& ground, std::uint64_t seed);
 
-  /// One more, of the scenario's first kind. False where there is no room.
+  /// Adds a mover of the scenario's first kind. False where there is no room.
   [[nodiscard]] bool add(const Ground& ground, std::uint64_t seed, std::uint32_t id,
                          std::span<const MoverTruth> placed);
-  /// One fewer. False where there is none.
+  /// Removes the newest mover. False where there is none.
   [[nodiscard]] bool remove() noexcept;
 
   /// Moves all on by `step_s`. `others` are movers that do not wander.

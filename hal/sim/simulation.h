@@ -48,13 +48,15 @@ class Simulation {
   [[nodiscard]] Hal hal() noexcept;  ///< clock starts at zero
   [[nodiscard]] const Truth& truth() const noexcept;
 
-  // What a person does who plays with the world, between two ticks.
+  // Changes to an endless world (jaywalk sim --endless), between two ticks.
 
-  /// As FaultSpec, from now on.
+  /// Begins a fault that lasts `for_s` seconds, with FaultSpec's defaults. kCarried moves the robot 1 m ahead and turns
+  /// it by 1 rad.
   void begin_fault(FaultKind kind, double for_s);
-  /// One wandering mover more, of the scenario's first kind. False where there is no room.
+  /// Adds a wandering mover of the scenario's first kind at a random place, 2 m or more from the robot. False where
+  /// there is no room.
   [[nodiscard]] bool add_walker();
-  /// False where there is none.
+  /// Removes the newest wandering mover. False where there is none.
   [[nodiscard]] bool remove_walker() noexcept;
 
   /// Length (m) of the shortest path for the footprint's inscribed circle from start to goal among the walls alone;

@@ -86,7 +86,7 @@ const Scenario& World::with_free_places(const Scenario& scenario) const {
   return scenario;
 }
 
-/// As far from the robot as the scenario's own are from its start.
+/// The robot's pose stands in for the scenario's start, so that kRoomToRobot (movers.cc) holds from where it is now.
 bool World::add_walker(Scenario scenario, std::uint64_t seed) {
   scenario.start = plant_.map_from_robot();
   legs_.emplace_back();

@@ -42,7 +42,7 @@ class World {
   /// the movers.
   World(const Scenario& scenario, std::uint64_t seed);
 
-  /// A person who plays with the world, between two steps: Simulation.
+  // Changes to an endless world, as Simulation's, between two steps.
   void begin_fault(FaultKind kind, double for_s) {
     faults_.push_back({.at_s = to_seconds(truth_.now), .for_s = for_s, .kind = kind, .way = {1.0, 0.0, 1.0}});
   }

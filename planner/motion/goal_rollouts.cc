@@ -21,7 +21,6 @@ constexpr float kTurnBlocked_s = 5.0F;      ///< without progress, at the goal
 /// and its way has not. Counted as a stall, a dead end made the robot impatient all the way out of it: a loop in 5 of
 /// 32 runs (16 movers, maps 1 to 4, seeds 9400 to 9431), in none without.
 constexpr float kMapChanges_s = 1.0F;
-constexpr float kWonBack = 2.0F, kMostLost_s = 60.0F;         ///< StallState::lost_s
 constexpr Duration kGuideHoldsFor = std::chrono::seconds(1);  ///< as the supervisor's longest age of a plan
 
 /// Hands every trajectory that a decision tries to `look`, which keeps the best of them in `best`.
@@ -182,11 +181,12 @@ void GoalRollouts::note_progress(const Situation& situation, Time now) noexcept 
   stall_.for_s = static_cast<float>(to_seconds(now - stalled_since_));
 }
 
-/// `won_s`: by which the time to go fell since the last decision.
+/// `won_s`: the fall of the time to go since the last decision; 0 where the map changed it.
 void GoalRollouts::note_lost(float won_s, Time now) noexcept {
   const bool is_new = stalled_since_ == kNever || now < noted_;
   const auto since_s = static_cast<float>(is_new ? 0.0 : std::min(1.0, to_seconds(now - noted_)));
-  stall_.lost_s = is_new ? 0.0F : std::clamp(stall_.lost_s + since_s - kWonBack * won_s, 0.0F, kMostLost_s);
+  const float lost_s = stall_.lost_s + since_s - price::kWonBack * won_s;
+  stall_.lost_s = is_new ? 0.0F : std::clamp(lost_s, 0.0F, price::kMostLostS);
   noted_ = now;
 }
 

@@ -48,8 +48,8 @@ struct StallState {
   float least_to_go_s = 0.0F;
   bool is_alone = false;   ///< no pedestrian is about
   float wound_rad = 0.0F;  ///< net turn since then, left positive
-  /// Seconds that passed less twice those by which the time to go fell, 0 or more: a little way does not make good a
-  /// long wait.
+  /// Time since this goal was given, less price::kWonBack times the fall of the time to go, s, 0 to price::kMostLostS.
+  /// Unlike `for_s` it does not begin anew with each half second of progress.
   float lost_s = 0.0F;
 
   [[nodiscard]] JAYWALK_CELL bool gets_on(float to_go_s) const {

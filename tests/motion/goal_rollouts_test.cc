@@ -139,7 +139,7 @@ TEST_CASE("a wall that comes to be known makes the way longer, and no stall") {
   CHECK(drive.planner().decision().stall.for_s < 1.5F);
 }
 
-TEST_CASE("seconds that bring it no nearer are lost, and a little way does not win them back") {
+TEST_CASE("seconds that bring it no nearer are lost, driving wins them back, another goal forgets them") {
   test::Guided ground;
   Drive drive(ground, {4.0, 0.0});
   (void)drive.run(3.0);

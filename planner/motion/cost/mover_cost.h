@@ -114,7 +114,8 @@ class MoverCost {
   }
 
   const Situation& s_;
-  /// Share of the price of what can still be changed: being in a mover's way, and touching later than kSafeForS.
+  /// Factor, 1 or less, on the prices of being in a mover's way and of touching later than kSafeForS:
+  /// price::kYieldsForS.
   float yielding_;
   /// Touching is priced apart from being in a mover's way.
   WorstMeetings met_, touched_;
