@@ -28,11 +28,11 @@ enum class MotionOnset : std::uint8_t {
 
 /// Whether this scan's detection of the target (Existence::misses is 0) says that it moves: it was seen steadily, is
 /// farther from its anchor than swaying and doubt explain, came here in small steps along one line, and no longer
-/// stands at its anchor. The less the ground tells (beams that now pass over the anchor, ground under it or ahead of it
-/// that was free before) and the less of it is seen, the longer and straighter the walk must be, and the more so the
-/// farther off: few points, and a heading's error grows. A walk counts only as far as the target does not grow or
-/// shrink meanwhile (straight_fit.h). What rides along with the laser belongs to the robot. A target as wide as a body,
-/// seen whole, that stood is judged by its newest positions alone as well; one taken for a wall, by nothing else.
+/// stands at its anchor. The less the ground tells (beams that now pass over the anchor, beams that a moment ago passed
+/// where it is, ground that the map has free) and the less of it is seen, the longer and straighter the walk must be. A
+/// walk counts only as far as the target does not grow or shrink meanwhile (straight_fit.h). What rides along with the
+/// laser belongs to the robot. A target as wide as a body, seen whole, that stood is judged by its newest positions
+/// alone as well; one taken for a wall, by nothing else.
 ///
 /// The thresholds are the smallest at which hardly anything started to move in 27 passes over a minute of scans that
 /// were taken where nobody was (`no_people_left`, each from another scan on, with three sweep times).

@@ -22,9 +22,9 @@ constexpr double kSolidSigmas = 7.0, kThingSigmas = 15.0;
 // The same of bodies that came to free space: no false mover in no_people_left.
 constexpr double kCameSigmas = 4.5, kCameM = 0.06;
 constexpr double kRigidShare = 0.3;  // of its walk is all that its width changes by
-// Of what it grew by, where nothing says that it came: a surface that comes into view on one side and goes out of it on
-// the other: at a quarter of the headings of no_people_left. 1.5 to 3 tell as much.
-constexpr double kGrewUnfree = 2.0;
+// Of what it grew by: a surface that comes into view on one side and goes out of it on the other: at a quarter of the
+// headings of no_people_left. 1.5 to 3 tell as much.
+constexpr double kGrew = 2.0;
 
 /// The least of a steady walk that is believed.
 struct LeastWalk {
@@ -133,8 +133,7 @@ StraightFit PositionHistory::fit_newest(std::size_t fewest) const noexcept {
 
 bool steady(const MotionEvidence& e, const StraightFit& fit) noexcept {
   const LeastWalk least = least_walk(e, fit);
-  const double grew_m = fit.width_change_m * (e.onset.came_to_free_space() ? 1.0 : kGrewUnfree);
-  return fit.sigmas > least.sigmas && fit.length_m > std::max(least.length_m, grew_m);
+  return fit.sigmas > least.sigmas && fit.length_m > std::max(least.length_m, kGrew * fit.width_change_m);
 }
 
 double least_steady_m(const MotionEvidence& e, const StraightFit& fit) noexcept { return least_walk(e, fit).length_m; }

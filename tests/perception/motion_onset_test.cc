@@ -221,24 +221,50 @@ TEST_CASE("who came the whole way in one hop has not set out") {
   CHECK_FALSE(sees_it_start(target, room));
 }
 
-TEST_CASE("on ground of which nothing is known a short walk far off is not enough") {
-  // Coming towards the laser hides the place behind. Half a metre in a second, swaying, 8 m off: 0.8 m are wanted
-  // there, and 0.5 m at 3 m, less what rounding takes.
-  Target far = walker({8.5, 0.0}, {8.0, 0.0}), near = walker({3.6, 0.0}, {3.0, 0.0});
-  far.onset.free_share = near.onset.free_share = 0.0;
-  const auto sway = [](Target& target, double from_x, double way_m) {
+TEST_CASE("who sways has set out where beams passed a moment ago and not where none tells") {
+  // Coming towards the laser hides the place behind: 0.6 m in a second, as one leg or the other is seen.
+  Room room = rectangle(12.0, 10.0);
+  room.discs = {{{3.0, 0.0}, 0.1}};
+  Target target = walker({3.6, 0.0}, {3.0, 0.0});
+  const auto sways_by = [&](double aside_m, double grows_m) {
     target.onset.positions.clear();
     for (int k = 0; k <= 10; ++k)
       target.onset.positions.add(
           time_from_seconds(0.1 * k),
-          {.where_in_map = {from_x - 0.1 * k * way_m, k % 2 == 0 ? 0.09 : -0.09}, .width_m = 0.0, .whole = true});
+          {.where_in_map = {3.6 - 0.06 * k, k % 2 == 0 ? aside_m : -aside_m}, .width_m = grows_m * k, .whole = true});
   };
-  sway(far, 8.5, 0.5), sway(near, 3.6, 0.6);
-  Room room = rectangle(24.0, 10.0);
-  room.discs = {{{8.0, 0.0}, 0.2}};
-  CHECK_FALSE(sees_it_start(far, room));
-  room.discs = {{{3.0, 0.0}, 0.2}};
-  CHECK(sees_it_start(near, room));
+  const Judge was_free(room, rectangle(12.0, 10.0)), untold(room);
+  sways_by(0.14, 0.0);
+  CHECK(was_free(target) == MotionOnset::kLikely);
+  CHECK(untold(target) == MotionOnset::kNone);
+  target.appearance.noise = 3.0;  // a heap that changes its shape
+  CHECK(was_free(target) == MotionOnset::kNone);
+  target.appearance.noise = 1.0;
+  sways_by(0.14, 0.04);  // 0.4 m wider at the end
+  CHECK(was_free(target) == MotionOnset::kNone);
+  sways_by(0.14, 0.0);
+  target.onset.free_share = 0.0;  // the map does not agree
+  CHECK(was_free(target) == MotionOnset::kNone);
+  sways_by(0.09, 0.0);
+  CHECK(was_free(target) == MotionOnset::kLikely);
+}
+
+TEST_CASE("what went less than half its own width has not set out by swaying") {
+  Room room = rectangle(12.0, 10.0);
+  room.discs = {{{3.0, 0.0}, 0.1}};
+  Target target = walker({3.6, 0.0}, {3.0, 0.0});
+  target.onset.positions.clear();
+  for (int k = 0; k <= 10; ++k)
+    target.onset.positions.add(time_from_seconds(0.1 * k),
+                               {{3.6 - 0.06 * k, k % 2 == 0 ? 0.09 : -0.09}, 0.0, 0.0, true});
+  const Judge was_free(room, rectangle(12.0, 10.0));
+  const auto as_wide_as = [&](double width_m) {
+    target.appearance.outline_in_map.clear();
+    for (int k = -2; k <= 2; ++k) (void)target.appearance.outline_in_map.push_back({3.0, 0.25 * k * width_m});
+    return was_free(target);
+  };
+  CHECK(as_wide_as(1.0) == MotionOnset::kLikely);
+  CHECK(as_wide_as(1.3) == MotionOnset::kNone);
 }
 
 TEST_CASE("a piece of wall that slides along itself has not set out, and one broadside on has") {

@@ -131,9 +131,9 @@ TEST_CASE("hardly anything moves where nobody is, wherever the recording begins"
   CHECK(10 * misled <= starts);  // of a robot that drives at 0.9 m/s and knows nothing of its speed
 }
 
-// Where single starts end is chance: of 40 (five ranges of headings) 5 are more than 0.25 m off, 0.43 m at most, by
-// 0.10 m on average; of a version before 4, 0.53 m, 0.11 m. So is which of the pedestrians there, a handful, are known
-// to walk: 11 and 12 in all eight, 3 at most in one.
+// Where single starts end is chance, and eight of them still are: of these 40, 7 are more than 0.25 m off, 0.46 m at
+// most, by 0.16 m on average (of a version before 8, 0.44 and 0.16 m). So is which of the pedestrians there, a handful,
+// are known to walk.
 TEST_CASE("after five minutes in Freiburg poses are a fifth of a metre right on average and hardly anything moves") {
   const auto file = find("carmen/freiburg-079-corrected.log.gz");
   if (!file) return;
@@ -142,8 +142,8 @@ TEST_CASE("after five minutes in Freiburg poses are a fifth of a metre right on 
   const Pose2 start = recording.reference.front().pose, end = recording.reference[1499].pose;
   double sum_m = 0.0;
   std::size_t movers = 0;
-  for (int k = 0; k < 8; ++k) {  // the map turned, so that walls lie across other cells
-    const Pose2 turned{0.0, 0.0, 0.2 * k};
+  for (int k = 0; k < 40; ++k) {  // the map turned, so that walls lie across other cells
+    const Pose2 turned{0.0, 0.0, 0.04 * k};
     const Seen seen = run(recording, turned * start, {});
     const double off_m = distance(seen.poses.back().position(), turned * end.position());
     std::cout << "after 5.5 minutes off by " << off_m << " m, " << seen.moving_ids.size() << " movers\n";
@@ -152,8 +152,8 @@ TEST_CASE("after five minutes in Freiburg poses are a fifth of a metre right on 
     CHECK(off_m < 0.6);
     CHECK(seen.moving_ids.size() <= 3);
   }
-  CHECK(movers <= 12);
-  CHECK(sum_m / 8.0 < 0.2);
+  CHECK(movers <= 60);
+  CHECK(sum_m / 40.0 < 0.2);
 }
 
 TEST_CASE("people before a wheelchair are tracked where they were labelled") {

@@ -104,18 +104,16 @@ TEST_CASE("who walked all the time has walked since the first place") {
   CHECK(path.fit_newest(5).sigmas == path.fit().sigmas);
 }
 
-TEST_CASE("who grows as he goes must go twice as far where nobody called the ground free") {
+TEST_CASE("who grows as he goes must go twice as far") {
   Target target = walker({3.0, 0.0}, {3.0, 0.2});
   target.appearance.arc_m = 0.25;
-  const auto walks_growing = [&](double by_m, double free_share) {  // 0.18 m in the 0.9 s from first place to last
+  const auto walks_growing = [&](double by_m) {  // 0.18 m in the 0.9 s from first place to last
     target.onset.positions.clear();
     for (int k = 1; k <= 10; ++k)
       target.onset.positions.add(time_from_seconds(0.1 * k),
                                  {.where_in_map = {3.0, 0.02 * k}, .width_m = 0.4 + by_m / 9.0 * k, .whole = true});
-    target.onset.free_share = free_share;
     return steady(target.motion(), target.onset.positions.fit());
   };
-  CHECK(walks_growing(0.08, 0.0));
-  CHECK_FALSE(walks_growing(0.1, 0.0));
-  CHECK(walks_growing(0.1, 1.0));
+  CHECK(walks_growing(0.08));
+  CHECK_FALSE(walks_growing(0.1));
 }
