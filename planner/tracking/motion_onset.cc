@@ -17,10 +17,12 @@ constexpr std::size_t kFewestPositions = 5;
 // do not any more, and nobody who walks begins later (bench/tracking/recordings.py, 16 headings). From 0.15 to 0.3 the
 // same.
 constexpr double kSeenThrough = 0.15;
-// From this share on a thing came to ground that was free a moment ago: four positions do, the filter's doubt is not
-// asked, and it may sway. In the recording of the driving chair 69 of 84 walkers are shown moving, 54 without; in
-// the simulation 84 of 100 are known within 0.6 s who walk on two legs at 0.8 m/s, 74 without the swaying; where nobody
-// is no more but two begin to move (bench/tracking/recordings.py, 16 headings).
+// Least share of looks that went through, from which the target came to free ground. It then needs four positions only,
+// its speed is not held against the filter's covariance, and a swaying walk counts (left_its_width). Recording of the
+// driving chair: 69 of 84 walkers are shown moving, 54 without this rule (bench/tracking/recordings.py). Simulated
+// pedestrians on two legs at 0.8 m/s: 83 % are known within 0.6 s, 74 % where swaying walks do not count
+// (bench/worlds.py movers, seeds 901 and 902). The swaying walks add two false movers to 16 passes over no_people_left
+// and right.
 constexpr double kWasFree = 0.5;
 constexpr std::size_t kFewestWasFree = 4;
 constexpr double kHopM = 0.5 * kStrideM;   // one leg is seen, then the other
@@ -77,17 +79,18 @@ bool slides_along_itself(const MotionEvidence& e, Vec2 laser) {
   return may_be_wall && norm(chord) > kChordM && std::fabs(dot(chord, way)) > kAlong * norm(chord) * norm(way);
 }
 
-/// Its middle is beyond where its edge was, however much it grew or shrank. Wide things that change their shape have
-/// much noise, and legs little.
+/// Whether the walk, less the change of the target's width, is longer than half that width: its middle has passed the
+/// place of its edge. A wide thing whose shape changes has more noise than kQuietNoise; a pair of legs has less.
 bool left_its_width(const MotionEvidence& e, const StraightFit& fit) {
   const Outline& outline = e.appearance.outline_in_map;
   const double half_m = 0.5 * distance(outline[0], outline.back());
   return e.appearance.noise < kQuietNoise && fit.length_m - fit.width_change_m > std::max(kStandsWithinM, half_m);
 }
 
-/// A walk without hops, of a target whose old place is not still taken: steady, or longer and swaying, as one leg or
-/// the other is seen, when the world agrees twice: it left ground that is free now and came to ground that the map has
-/// free, or came to ground that was free a moment ago; unless the map agrees to that, it sways less.
+/// Whether the target walks: no hops, and no beam ends at its old place. A steady walk is enough. A swaying walk (the
+/// laser sees one leg, then the other) needs two witnesses of the ground: the map had the new place free and beams now
+/// pass over the old one, or beams passed over the new place a moment ago (`was_free`). Where the map did not have the
+/// new place free, or the target is partly hidden, the walk must be straighter.
 bool walks(const MotionEvidence& e, const StraightFit& fit, const Surroundings& around, bool was_free) {
   if (fit.longest_hop_m > kHopM) return false;
   const OldPlace old = old_place(e, around);
@@ -120,7 +123,8 @@ bool filter_walks(const Estimate& estimate) {
   return norm(estimate.track.velocity_in_map) > kStoppedMps && estimate.filter.weight(ImmFilter::kStands) <= kMayStand;
 }
 
-/// Where it is was free, fast against what the filter is unsure of, or steady.
+/// Whether the filter has the target walk, and one thing more supports it: its place was free a moment ago, the walk is
+/// steady, or its speed is large against the speed's standard deviation.
 bool beyond_doubt(const MotionEvidence& e, const StraightFit& fit, bool was_free) {
   if (!filter_walks(e.estimate)) return false;
   const Track& track = e.estimate.track;
@@ -229,8 +233,8 @@ void judge_motion(Target& target, const Surroundings& around, Time now) noexcept
   } else {
     judge_standing(target, around, now);
   }
-  // For good: where nobody is, some 30 things at once pass for pedestrians. Were it to end 2 s after they looked so, 19
-  // would, but who then shows but one leg would be forgotten; once they are seen 30 degrees from another side, 26.
+  // Latched: a pedestrian of whom the laser later sees one leg stays one. Furniture that once looked like legs stays
+  // one, too.
   target.existence.maybe_pedestrian = target.existence.maybe_pedestrian || may_be_pedestrian(target);
 }
 

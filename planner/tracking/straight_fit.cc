@@ -22,8 +22,8 @@ constexpr double kSolidSigmas = 7.0, kThingSigmas = 15.0;
 // The same of bodies that came to free space: no false mover in no_people_left.
 constexpr double kCameSigmas = 4.5, kCameM = 0.06;
 constexpr double kRigidShare = 0.3;  // of its walk is all that its width changes by
-// Of what it grew by: a surface that comes into view on one side and goes out of it on the other: at a quarter of the
-// headings of no_people_left. 1.5 to 3 tell as much.
+// Least length of a steady walk, in changes of the target's width: a surface that comes into view on one side and
+// leaves it on the other seems to walk, at a quarter of the headings of no_people_left. 1.5 to 3 give the same.
 constexpr double kGrew = 2.0;
 
 /// The least of a steady walk that is believed.
