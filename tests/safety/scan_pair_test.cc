@@ -3,6 +3,7 @@
 
 #include <Eigen/LU>
 #include <random>
+#include <vector>
 
 #include "tests/support/catch.h"
 
@@ -40,7 +41,61 @@ Vec2 claimed_std_m(double left_m, std::uint64_t seed) {
   return {std::sqrt(covariance(0, 0)), std::sqrt(covariance(1, 1))};
 }
 
+constexpr double kPost_m = 0.075;  ///< radius
+
+/// Two fences of posts that touch, 4.5 m apart, one across behind the robot, and 80 single posts ahead: their middles.
+std::vector<Vec2> posts(std::mt19937_64& engine) {
+  std::vector<Vec2> all;
+  for (double x = -2.9; x < 6.5; x += 2.0 * kPost_m) all.insert(all.end(), {{x, -2.25}, {x, 2.25}});
+  for (double y = -2.2; y < 2.2; y += 2.0 * kPost_m) all.push_back({-2.9, y});
+  std::uniform_real_distribution<double> ahead(1.5, 6.5), aside(-2.0, 2.0);
+  for (int k = 0; k < 80; ++k) all.push_back({ahead(engine), aside(engine)});
+  return all;
+}
+
+/// View of them over 270 degrees, a beam each third of a degree, with 1 cm of noise.
+LaserScan among(const std::vector<Vec2>& posts, const Pose2& laser, std::mt19937_64& engine) {
+  std::normal_distribution<double> noise(0.0, 0.01);
+  LaserScan scan;
+  scan.sequence = 1;
+  scan.beam_count = 811;
+  scan.first_angle_rad = static_cast<float>(-0.75 * kPi);
+  scan.angle_step_rad = static_cast<float>(kPi / 540.0);
+  scan.range_min_m = 0.05F;
+  scan.range_max_m = 25.0F;
+  for (std::size_t beam = 0; beam < scan.beam_count; ++beam) {
+    const Vec2 along = direction(laser.heading + scan.angle_rad(beam));
+    double nearest = 30.0;
+    for (const Vec2 post : posts) {
+      const Vec2 to = post - laser.position();
+      const double ahead = dot(to, along), inside = kPost_m * kPost_m - cross(along, to) * cross(along, to);
+      if (ahead > 0.0 && inside > 0.0) nearest = std::min(nearest, ahead - std::sqrt(inside));
+    }
+    scan.range_m[beam] = static_cast<float>(nearest + noise(engine));
+  }
+  return scan;
+}
+
 }  // namespace
+
+TEST_CASE("among posts no match is much more likely than the truth") {
+  // By straight surfaces it was by up to 19, more than contradicts the wheels: 34 of 100 drives among posts ended so.
+  double most = 0.0;
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    std::mt19937_64 engine(seed);
+    const std::vector<Vec2> world = posts(engine);
+    const Pose2 moved{0.015, 0.0, seed % 2 == 0 ? 0.05 : -0.05};
+    const LaserScan kept = among(world, {}, engine), now = among(world, moved, engine);
+    ScanPair pair{Pose2{}};
+    REQUIRE(pair.usable(kept));
+    pair.keep(kept);
+    const ScanPair::Fit fit = pair.fit(now, moved);
+    CHECK(fit.tells());
+    const ScanPair::Errors best = pair.errors(now, fit.kept_from_now), truth = pair.errors(now, moved);
+    most = std::max(most, ScanPair::without_greatest(pair.advantage(best, truth, fit.noise_m, false)));
+  }
+  CHECK(most < 5.0);
+}
 
 TEST_CASE("a scan from 3 cm nearer to a wall leaves 3 cm at each point of it, wherever along the wall it was taken") {
   std::mt19937_64 engine(1);
