@@ -66,11 +66,10 @@ void NearReturns::update(const OfEach<SeenFrom>& scans, const RobotState& robot,
 
 float NearReturns::braked_share(const RobotState& robot, const RobotBody& body) const noexcept {
   const cell::Heading along = cell::heading_at(robot.heading);
+  float gaps[kSectors];  // a loop of its own: compilers take four at once
+  for (std::size_t k = 0; k < count_; ++k) gaps[k] = gap_to(robot, along, body, x_[k], y_[k]);
   float least = Rules::kMargin_m + kEdgeM;
-  for (std::size_t k = 0; k < count_; ++k) {
-    const float gap = gap_to(robot, along, body, x_[k], y_[k]);
-    least = gap < gap_[k] && gap < least ? gap : least;
-  }
+  for (std::size_t k = 0; k < count_; ++k) least = gaps[k] < gap_[k] && gaps[k] < least ? gaps[k] : least;
   if (least >= Rules::kMargin_m + kEdgeM) return 0.0F;
   const float rim = std::fabs(robot.v) + std::fabs(robot.w) * body.rim_m,
               creep = is_beside() && least > nearest_ - Rules::kSwing_m ? Rules::kCreep_mps : 0.0F,

@@ -144,7 +144,7 @@ TEST_CASE("emulated: poses are settled in few steps, and hardly more of them tha
     most_expanded = std::max(most_expanded, told.expanded / std::max(1.0, static_cast<double>(settled)));
   }
   std::printf("at most %d steps, %.2f times Dijkstra's expansions\n", most_steps, most_expanded);
-  CHECK(most_steps <= 90);  // 80 wanted, 81 to 84 measured
+  CHECK(most_steps <= 90);  // 80 wanted, 81 to 84 measured; 88 to 102 with spans of 96, 112, 160, 192
   CHECK(most_expanded <= 1.3);
 }
 
