@@ -176,9 +176,8 @@ void GoalRollouts::note_progress(const Situation& situation, Time now) noexcept 
     stalled_since_ = now;
   }
   const std::span<const MoverBelief> beliefs = memory().beliefs();
-  stall_.is_alone = memory().hidden().empty() && std::all_of(beliefs.begin(), beliefs.end(), [](const MoverBelief& b) {
-                      return b.newcomer || b.stood_s > kLongPauseS;
-                    });
+  stall_.is_alone = memory().hidden().empty() &&
+                    std::all_of(beliefs.begin(), beliefs.end(), [](const MoverBelief& b) { return b.newcomer; });
   stall_.for_s = static_cast<float>(to_seconds(now - stalled_since_));
 }
 

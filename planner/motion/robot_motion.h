@@ -46,7 +46,7 @@ JAYWALK_CELL float turned_side(float w, float last) {
 struct StallState {
   float for_s = 0.0F;
   float least_to_go_s = 0.0F;
-  bool is_alone = false;   ///< no pedestrian is about, but for those that have stood for kLongPauseS
+  bool is_alone = false;   ///< no pedestrian is about
   float wound_rad = 0.0F;  ///< net turn since then, left positive
   /// Time since this goal was given, less price::kWonBack times the fall of the time to go, s, 0 to price::kMostLostS.
   /// Unlike `for_s` it does not begin anew with each half second of progress.

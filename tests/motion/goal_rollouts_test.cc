@@ -128,19 +128,6 @@ TEST_CASE("the time to the goal is progress, and anew for each goal") {
   CHECK_FALSE(beside_a_walker.planner().decision().stall.is_alone);
 }
 
-TEST_CASE("beside who has stood for four seconds the robot is alone, beside who has just stopped it is not") {
-  test::Guided ground;
-  Drive drive(ground, {4.0, 0.0});
-  drive.has_mover = true, drive.mover = {0.0, 3.0}, drive.walks = {0.4, 0.0};
-  (void)drive.run(1.0);
-  drive.walks = {};
-  (void)drive.run(2.0);
-  CHECK_FALSE(drive.planner().decision().stall.is_alone);
-  drive.go_to({-4.0, 0.0});
-  (void)drive.run(3.0);
-  CHECK(drive.planner().decision().stall.is_alone);
-}
-
 TEST_CASE("a wall that comes to be known makes the way longer, and no stall") {
   test::Guided ground;
   Drive drive(ground, {4.0, 0.0});
