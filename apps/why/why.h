@@ -1,6 +1,5 @@
 #pragma once
 // `jaywalk why`: one moment of a recording in words, tables and a picture.
-#include <span>
 #include <string>
 #include <vector>
 

@@ -1,7 +1,6 @@
 #include "drivers/can/can_bus.h"
 
 #include <cstdio>
-#include <utility>
 
 namespace jaywalk {
 namespace {

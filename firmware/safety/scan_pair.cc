@@ -36,19 +36,16 @@ struct Surface {
   explicit Surface(Hits& hits) {
     const auto count = static_cast<double>(hits.size());
     for (const Vec2 hit : hits) mean = mean + hit * (1.0 / count);
-    double cubes = 0.0, across = 0.0, squares = 0.0;
+    double cubes = 0.0, across = 0.0, squares = 0.0, size = 1e-12, bent = 0.0;
     for (Vec2& hit : hits) {
       hit = hit - mean;
       spread_m2 += hit.x * hit.x, cubes += hit.x * hit.x * hit.x, across += hit.x * hit.y, squares += hit.y * hit.y;
+      half_m = std::max(half_m, std::fabs(hit.x));
     }
     slope = across / std::max(spread_m2, 1e-9);
     skew_m = cubes / std::max(spread_m2, 1e-9), middle_m2 = spread_m2 / count;
     if (hits.size() < 5) return;
-    double size = 1e-12, bent = 0.0;
-    for (const Vec2 hit : hits) {
-      size += parabola(hit.x) * parabola(hit.x), bent += parabola(hit.x) * hit.y;
-      half_m = std::max(half_m, std::fabs(hit.x));
-    }
+    for (const Vec2 hit : hits) size += parabola(hit.x) * parabola(hit.x), bent += parabola(hit.x) * hit.y;
     const double explained = bent * bent / size, feigned = 2.0 * (squares - slope * across - explained) / (count - 3.0);
     bend = explained > feigned ? (1.0 - feigned / explained) * bent / size : 0.0;
   }
@@ -61,8 +58,7 @@ struct Surface {
   [[nodiscard]] double parabola(double on) const { return on * on - skew_m * on - middle_m2; }
 
   Vec2 mean{};
-  double slope = 0.0, bend = 0.0, spread_m2 = 0.0;
-  double skew_m = 0.0, middle_m2 = 0.0, half_m = 0.0;
+  double slope = 0.0, bend = 0.0, spread_m2 = 0.0, skew_m = 0.0, middle_m2 = 0.0, half_m = 0.0;
 };
 
 /// Of the beams, so that no more than kMostPoints are looked at.

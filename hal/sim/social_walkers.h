@@ -15,9 +15,7 @@
 // Physical Review E 51, 4282. Its lengths are between points; here they are between the outlines of bodies.
 namespace jaywalk::sim::social {
 
-/// Mean of the speeds that pedestrians wish, m/s; standard deviation 0.26 (section III).
-inline constexpr double kWishedSpeed_mps = 1.34;
-/// Standard deviation of the wished speeds over their mean.
+/// Standard deviation of the speeds that pedestrians wish, m/s, over their mean (section III).
 inline constexpr double kSpeedSpread = 0.26 / 1.34;
 /// Greatest over wished speed of a pedestrian (section III).
 inline constexpr double kMostSpeed = 1.3;

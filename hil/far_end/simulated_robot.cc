@@ -1,6 +1,5 @@
 #include "hil/far_end/simulated_robot.h"
 
-#include <cmath>
 #include <limits>
 #include <utility>
 

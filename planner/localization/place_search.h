@@ -58,15 +58,13 @@ struct PlaceFit {
   [[nodiscard]] bool is_clearly_better_than(const PlaceFit& other) const noexcept;
 };
 
-/// Search for the place, within kReach_m of another, from which a scan was taken.
+/// Search for the place, within 12.8 m of another, from which a scan was taken.
 ///
 /// Correlative search over the cells that were seen free, all headings, in steps of two cells and four degrees; the
 /// best that lie apart are matched closely (ScanMatcher) and judged by what the laser could see from there (is_hidden).
 /// One part of it a call, a millisecond or two: for the tick. Thread: the loop's. The constructor allocates 2 MB.
 class PlaceSearch {
  public:
-  static constexpr double kReach_m = 12.8;
-
   PlaceSearch();
   /// Begins anew for a scan taken near `about`.
   void begin(const SeenSample& sample, Vec2 about) noexcept;
