@@ -1,6 +1,5 @@
 #include "drivers/canopen/cia402.h"
 
-
 #include "drivers/canopen/drive_proof.h"
 #include "drivers/wire/byte_reader.h"
 
