@@ -98,8 +98,8 @@ class SetupAnswers {
   [[nodiscard]] bool asks() const { return from_ != nullptr; }
   void take_kind(const std::string& kind);
 
-  /// Enters a value for the key. Sources, in this order: the answers file; the operator, who is shown `suggestion`; the
-  /// suggestion itself, entered with `note`. Throws StartupError where no source gives a value.
+  /// Enters a value for the key: that of the answers file, else the operator's answer (the operator sees `suggestion`),
+  /// else `suggestion` with `note`. Throws StartupError where none of the three gives a value.
   void settle(RobotDraft& draft, const std::string& section, const std::string& key, const std::string& suggestion = "",
               const std::string& note = "", const Check& check = {});
   /// Tells a person what was found.

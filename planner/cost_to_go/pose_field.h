@@ -24,6 +24,7 @@ struct PoseFieldRequest {
 /// with its heading where one is wanted, and where the 2-D way leads out of the square with the 2-D time from there;
 /// settled backward in buckets. Costs are integers: the fixed point of cost[p] = min(cost[q] + step) over the moves p
 /// to q, whatever the order of the work, up to what costs kBeyond_s more than the robot's own way.
+/// Each plan settles all costs anew: the times at the square's rim, from which they come, change with each.
 ///
 /// Memory in the constructor. Thread: the planner's.
 class PoseField {

@@ -79,8 +79,8 @@ bool slides_along_itself(const MotionEvidence& e, Vec2 laser) {
   return may_be_wall && norm(chord) > kChordM && std::fabs(dot(chord, way)) > kAlong * norm(chord) * norm(way);
 }
 
-/// Whether the walk, less the change of the target's width, is longer than half that width: its middle has passed the
-/// place of its edge. A wide thing whose shape changes has more noise than kQuietNoise; a pair of legs has less.
+/// Whether the walk, less the change of the target's width, is longer than half that width: then the target's middle
+/// has passed the place of its edge. Noise above kQuietNoise rules it out: a target that changes its shape has as much.
 bool left_its_width(const MotionEvidence& e, const StraightFit& fit) {
   const Outline& outline = e.appearance.outline_in_map;
   const double half_m = 0.5 * distance(outline[0], outline.back());
@@ -233,8 +233,8 @@ void judge_motion(Target& target, const Surroundings& around, Time now) noexcept
   } else {
     judge_standing(target, around, now);
   }
-  // Latched: a pedestrian of whom the laser later sees one leg stays one. Furniture that once looked like legs stays
-  // one, too.
+  // Latched, so that a pedestrian stays a pedestrian while the laser sees one leg. The cost: furniture that once looked
+  // like legs stays a pedestrian, too.
   target.existence.maybe_pedestrian = target.existence.maybe_pedestrian || may_be_pedestrian(target);
 }
 

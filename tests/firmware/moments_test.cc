@@ -42,7 +42,7 @@ Scene drive_through(const std::string& name) {
 
 }  // namespace
 
-// This test fails: the robot forces a mover in 10 of the 30 scenes (3 are allowed), touches nobody and drives 44 m. In
+// The test fails at present: the robot forces a mover in 10 of 30 scenes, and 3 are allowed. It touches no mover. In
 // scene 08 a walker comes from behind at 1.2 m/s, outside the laser's field of view, and passes the robot closely; with
 // a price of kWound = 2 the walker touched the robot. With a body 0.46 m long and 0.38 m wide the robot forced a mover
 // in 4 scenes and drove 70 m. The P3-DX's rear end, 0.30 m behind the axle, made the difference; its width did not.

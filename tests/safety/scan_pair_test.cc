@@ -11,17 +11,23 @@ using namespace jaywalk;
 
 namespace {
 
+/// A scan whose beams have directions, and no range yet.
+LaserScan scan_of(std::uint32_t beams, double view_rad, float reach_m) {
+  LaserScan scan;
+  scan.sequence = 1;
+  scan.beam_count = beams;
+  scan.first_angle_rad = static_cast<float>(-0.5 * view_rad);
+  scan.angle_step_rad = static_cast<float>(view_rad / (beams - 1));
+  scan.range_min_m = 0.05F;
+  scan.range_max_m = reach_m;
+  return scan;
+}
+
 /// An LMS200's view, a beam a degree over 180, of a wall x = `ahead_m`; with `left_m` of another, y = left_m, which
 /// hides the first one from where they meet.
 LaserScan walls(double ahead_m, double left_m, double noise_m, std::mt19937_64& engine) {
   std::normal_distribution<double> noise(0.0, noise_m);
-  LaserScan scan;
-  scan.sequence = 1;
-  scan.beam_count = 181;
-  scan.first_angle_rad = static_cast<float>(-0.5 * kPi);
-  scan.angle_step_rad = static_cast<float>(kPi / 180.0);
-  scan.range_min_m = 0.05F;
-  scan.range_max_m = 8.0F;
+  LaserScan scan = scan_of(181, kPi, 8.0F);
   for (std::size_t beam = 0; beam < scan.beam_count; ++beam) {
     const Vec2 along = direction(scan.angle_rad(beam));
     const double ahead = along.x > 1e-3 ? ahead_m / along.x : 100.0, left = along.y > 1e-3 ? left_m / along.y : 100.0;
@@ -41,7 +47,7 @@ Vec2 claimed_std_m(double left_m, std::uint64_t seed) {
   return {std::sqrt(covariance(0, 0)), std::sqrt(covariance(1, 1))};
 }
 
-constexpr double kPost_m = 0.075;  ///< radius
+constexpr double kPost_m = 0.075;  ///< radius of a post
 
 /// Two fences of posts that touch, 4.5 m apart, one across behind the robot, and 80 single posts ahead: their middles.
 std::vector<Vec2> posts(std::mt19937_64& engine) {
@@ -53,25 +59,20 @@ std::vector<Vec2> posts(std::mt19937_64& engine) {
   return all;
 }
 
-/// View of them over 270 degrees, a beam each third of a degree, with 1 cm of noise.
-LaserScan among(const std::vector<Vec2>& posts, const Pose2& laser, std::mt19937_64& engine) {
-  std::normal_distribution<double> noise(0.0, 0.01);
-  LaserScan scan;
-  scan.sequence = 1;
-  scan.beam_count = 811;
-  scan.first_angle_rad = static_cast<float>(-0.75 * kPi);
-  scan.angle_step_rad = static_cast<float>(kPi / 540.0);
-  scan.range_min_m = 0.05F;
-  scan.range_max_m = 25.0F;
+/// View of round things over 270 degrees, a beam each third of a degree.
+LaserScan among(const std::vector<Vec2>& middles, double radius_m, const Pose2& laser, double noise_m,
+                std::mt19937_64& engine) {
+  std::normal_distribution<double> noise(0.0, noise_m);
+  LaserScan scan = scan_of(811, 1.5 * kPi, 25.0F);
   for (std::size_t beam = 0; beam < scan.beam_count; ++beam) {
     const Vec2 along = direction(laser.heading + scan.angle_rad(beam));
     double nearest = 30.0;
-    for (const Vec2 post : posts) {
-      const Vec2 to = post - laser.position();
-      const double ahead = dot(to, along), inside = kPost_m * kPost_m - cross(along, to) * cross(along, to);
+    for (const Vec2 middle : middles) {
+      const Vec2 to = middle - laser.position();
+      const double ahead = dot(to, along), inside = radius_m * radius_m - cross(along, to) * cross(along, to);
       if (ahead > 0.0 && inside > 0.0) nearest = std::min(nearest, ahead - std::sqrt(inside));
     }
-    scan.range_m[beam] = static_cast<float>(nearest + noise(engine));
+    scan.range_m[beam] = static_cast<float>(nearest + (noise_m > 0.0 ? noise(engine) : 0.0));
   }
   return scan;
 }
@@ -79,13 +80,14 @@ LaserScan among(const std::vector<Vec2>& posts, const Pose2& laser, std::mt19937
 }  // namespace
 
 TEST_CASE("among posts no match is much more likely than the truth") {
-  // By straight surfaces it was by up to 19, more than contradicts the wheels: 34 of 100 drives among posts ended so.
+  // Logarithm of the likelihoods' ratio. With straight surfaces it reached 19, and 10 contradicts the wheels: 34 of 100
+  // drives among posts (bench/worlds.py posts, seeds 312 and 313) ended with a false motion_mismatch.
   double most = 0.0;
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     std::mt19937_64 engine(seed);
     const std::vector<Vec2> world = posts(engine);
     const Pose2 moved{0.015, 0.0, seed % 2 == 0 ? 0.05 : -0.05};
-    const LaserScan kept = among(world, {}, engine), now = among(world, moved, engine);
+    const LaserScan kept = among(world, kPost_m, {}, 0.01, engine), now = among(world, kPost_m, moved, 0.01, engine);
     ScanPair pair{Pose2{}};
     REQUIRE(pair.usable(kept));
     pair.keep(kept);
@@ -95,6 +97,22 @@ TEST_CASE("among posts no match is much more likely than the truth") {
     most = std::max(most, ScanPair::without_greatest(pair.advantage(best, truth, fit.noise_m, false)));
   }
   CHECK(most < 5.0);
+}
+
+TEST_CASE("a round surface is where it was: its bend is no error") {
+  // By hand: over a chord of 2 x 0.1 m a circle of 0.5 m bends by 0.1 x 0.1 / (2 x 0.5) = 10 mm. From its line of least
+  // squares the middle is off by a third of that (measured up to 7 mm where it is seen at a slant).
+  std::mt19937_64 engine(1);
+  const LaserScan scan = among({{2.0, 0.0}}, 0.5, {}, 0.0, engine);
+  ScanPair pair{Pose2{}};
+  REQUIRE(pair.usable(scan));
+  pair.keep(scan);
+  const ScanPair::Errors errors = pair.errors(scan, {});
+  const auto compared =
+      std::count_if(errors.begin(), errors.end(), [](float e) { return !std::isnan(e) && e != 0.0F; });
+  CHECK(compared > 4);
+  for (const float error_m : errors)
+    if (!std::isnan(error_m)) CHECK(std::fabs(error_m) < 0.001F);
 }
 
 TEST_CASE("a scan from 3 cm nearer to a wall leaves 3 cm at each point of it, wherever along the wall it was taken") {
