@@ -36,14 +36,16 @@ bool are_same(const Plan& a, const Plan& b) {
 /// Two plans, with times from cells and from poses, past a body that stands nearer in the second.
 bool plans_the_same(Planner& tried, Planner& expected, std::string& why_not) {
   const EvidenceMap room = trial_room();
-  MoverDisc body{{6.0, 3.5}, 0.27, true};
+  MoverDisc body{{6.0, 3.5}, 0.27};
+  StandingPedestrian pedestrian{body.centre_in_map, body.radius_m};
   PlanRequest request{.map_from_robot = {2.0, 2.0, 0.0},
                       .goal_in_map = {2.0, 10.5},
                       .speed_mps = 0.6,
                       .still = &room,
+                      .standing = {&pedestrian, 1},
                       .masked = {&body, 1}};
   request.poses.is_asked = true;
-  for (int k = 0; k < 2; ++k, body.centre_in_map.x -= 2.0) {
+  for (int k = 0; k < 2; ++k, body.centre_in_map.x -= 2.0, pedestrian.position_in_map = body.centre_in_map) {
     tried.submit(request), expected.submit(request);
     const Plan &a = expected.collect(), &b = tried.collect();
     if (b.status != PlanStatus::kOk) why_not = std::string("cuda: a trial plan failed (") + tried.failure() + ")";

@@ -70,10 +70,11 @@ Timing time_plan(const BenchMap& map, PlanOf what, Backend backend, int repeats)
   request.map_from_robot = {(map.start.i + 0.5) * kCell_m, (map.start.j + 0.5) * kCell_m, 0.0};
   std::array<Track, 8> tracks = walkers(side * kCell_m);
   std::array<MoverDisc, tracks.size()> bodies;
+  std::array<StandingPedestrian, tracks.size() / 2> standing;
   if (by_potential)
     request.moving = tracks;
   else
-    request.masked = bodies;
+    request.masked = bodies, request.standing = standing;
   const char* const name = by_potential ? "potential, 8 movers" : "plan, 8 movers";
   return time(name, repeats, planner.backend(), [&] {
     constexpr double kScan_s = 1.0 / 15.0;
@@ -81,7 +82,8 @@ Timing time_plan(const BenchMap& map, PlanOf what, Backend backend, int repeats)
     for (std::size_t k = 0; k < tracks.size(); ++k) {
       Track& track = tracks[k];
       track.position_in_map = track.position_in_map + track.velocity_in_map * kScan_s;
-      bodies[k] = {track.position_in_map, track.radius_m, k % 2 == 0};
+      bodies[k] = {track.position_in_map, track.radius_m};
+      if (k % 2 == 0) standing[k / 2] = {track.position_in_map, track.radius_m};
     }
     planner.submit(request);
     (void)planner.collect();

@@ -30,12 +30,7 @@ constexpr float kTightWeightOfLong = 3.0F;  ///< a long one drives through lengt
 constexpr float kLong_m = 0.3F;             ///< from the inscribed circle to the corners'
 constexpr float kTight_m = 0.03F;           ///< beyond the corners' circle
 constexpr float kBlocked_m = 0.01F;         ///< beyond the inscribed circle
-constexpr float kLastingWeight = 8.0F;      ///< where a body has stood for long: it may leave, a wall does not
 constexpr float kUnseenWeight = 8.0F;       ///< near the robot, what it has not seen yet
-constexpr double kBesideLasting_m = 0.4;
-/// Farther off, out to a gap at which it may pass at 1 m/s (MoverCost, kTooFast): twice the time.
-constexpr float kPoliteWeight = price::kPolite;
-constexpr double kPoliteLasting_m = static_cast<double>(price::kPoliteCoat_m) + 0.2;
 
 /// Then none counts: the robot may leave.
 bool is_in(const KeepOut& zones, Vec2 robot_in_map) {
@@ -182,12 +177,14 @@ void TimeToGoField::weigh(const TimeToGoRequest& request, const CellBox& box, bo
   for_each_in_disc(window, box, request.robot_in_map, kUnseenRadius_m, [&](std::int32_t c) {
     if (unseen[c] != 0) add_weight(c, kUnseenWeight);
   });
-  for (const MoverDisc& mover : request.movers) {
-    if (!mover.lasting) continue;
-    for_each_in_disc(window, box, mover.centre_in_map, mover.radius_m + kPoliteLasting_m,
-                     [&](std::int32_t c) { add_weight(c, kPoliteWeight); });
-    for_each_in_disc(window, box, mover.centre_in_map, mover.radius_m + kBesideLasting_m,
-                     [&](std::int32_t c) { add_weight(c, kLastingWeight); });
+  for (const StandingPedestrian& pedestrian : request.standing) {
+    const auto beside = [&](float gap_m, float weight) {
+      for_each_in_disc(window, box, pedestrian.position_in_map,
+                       pedestrian.radius_m + static_cast<double>(blocked_m_ + gap_m),
+                       [&](std::int32_t c) { add_weight(c, weight); });
+    };
+    beside(price::kPolite_m, price::kPolite);
+    beside(price::kBeside_m, price::kBeside - price::kPolite);
   }
 }
 

@@ -70,7 +70,8 @@ class FarGuide {
 struct TimeToGoRequest {
   Window window;
   const EvidenceMap* still = nullptr;
-  std::span<const MoverDisc> movers;
+  std::span<const MoverDisc> movers;                  ///< no walls
+  std::span<const StandingPedestrian> standing = {};  ///< ways past them are dear
   Vec2 robot_in_map, goal_in_map;
   double speed_mps = 0.0;
   const FarGuide* far = nullptr;  ///< settled for a goal outside the window; null: beyond it straight on

@@ -37,7 +37,6 @@ using Path = FixedVector<Vec2, kMaxPathPoints>;
 struct MoverDisc {
   Vec2 centre_in_map;
   double radius_m = 0.0;
-  bool lasting = false;  ///< has stood for long: ways past it are preferred to ways through
 };
 inline constexpr double kOwnBody_m = 0.2;  ///< beyond its radius what is mapped may be its own: noise, legs, its way
 
@@ -60,8 +59,8 @@ struct PlanRequest {
   double speed_mps = 0.0;              ///< the robot's cruising speed: warp numbers count its travel
   const EvidenceMap* still = nullptr;  ///< walls; read during submit only
   std::span<const Track> moving = {};  ///< for marks (planner/paper); copied during submit
-  std::span<const StandingPedestrian> standing =
-      {};                                  ///< where nobody passes, as wide as they are; read during submit only
+  /// As wide as they are: ways beside them are dear, the potential's lead round them. Read during submit only.
+  std::span<const StandingPedestrian> standing = {};
   std::span<const MoverDisc> masked = {};  ///< for the time to go; read during submit only
   PoseRequest poses{};
 };

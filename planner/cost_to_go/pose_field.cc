@@ -120,7 +120,9 @@ PoseGuide PoseField::settle(const PoseFieldRequest& request, Memory& memory) noe
   const auto heading = static_cast<float>(robot.heading);
   if (room_.find_unseen(request.guide, low, memory.unseen.data())) guide.unseen = memory.unseen.data();
   graph_.lay(guide, memory.cost.data(), guide.pose_at(here.x, here.y, heading), kBeyond);
-  const bool anybody_stands = weigh_standing(request, guide), is_inside = sow_goal(request, guide, memory);
+  const bool anybody_stands = !request.standing.empty(), is_inside = sow_goal(request, guide, memory);
+  if (anybody_stands) std::fill(dearer_.begin(), dearer_.end(), std::uint8_t{0});
+  for (const StandingPedestrian& pedestrian : request.standing) weigh_standing(pedestrian, guide);
   if (!is_inside) sow_rim(request, guide, memory);
   settle_costs(anybody_stands, memory);
   const auto any_seed = [&](const auto& is_open) { return std::any_of(seeds_.begin(), seeds_.end(), is_open); };
@@ -177,20 +179,10 @@ bool PoseField::settle_here(const PoseCosts& poses) noexcept {
   return queue_.settle(graph_);
 }
 
-bool PoseField::weigh_standing(const PoseFieldRequest& request, const PoseGuide& guide) noexcept {
-  const auto stands = [](const MoverDisc& mover) { return mover.lasting; };
-  if (std::none_of(request.movers.begin(), request.movers.end(), stands)) return false;
-  std::fill(dearer_.begin(), dearer_.end(), std::uint8_t{0});
-  for (const MoverDisc& mover : request.movers) {
-    if (stands(mover)) weigh_standing(mover, guide);
-  }
-  return true;
-}
-
 /// Ways past a pedestrian that stands are dear, not closed: it may leave.
-void PoseField::weigh_standing(const MoverDisc& mover, const PoseGuide& guide) noexcept {
-  const Place at = place_of(mover.centre_in_map);
-  const double reach_m = body_.circumscribed_radius_m() + mover.radius_m + static_cast<double>(price::kPoliteCoat_m);
+void PoseField::weigh_standing(const StandingPedestrian& pedestrian, const PoseGuide& guide) noexcept {
+  const Place at = place_of(pedestrian.position_in_map);
+  const double reach_m = body_.circumscribed_radius_m() + pedestrian.radius_m + static_cast<double>(price::kPolite_m);
   const auto cells = static_cast<std::int32_t>(reach_m / static_cast<double>(Lattice::kCell_m)) + 1;
   const auto ci = static_cast<std::int32_t>((at.x - guide.low_x) / Lattice::kCell_m),
              cj = static_cast<std::int32_t>((at.y - guide.low_y) / Lattice::kCell_m);
@@ -201,10 +193,9 @@ void PoseField::weigh_standing(const MoverDisc& mover, const PoseGuide& guide) n
         const Place p = guide.middle_of(i, j);
         const float dx = at.x - p.x, dy = at.y - p.y;
         const Vec2 seen{static_cast<double>(dx * a.x + dy * a.y), static_cast<double>(dy * a.x - dx * a.y)};
-        const auto gap_m = static_cast<float>(body_.distance_to(seen) - mover.radius_m);
-        if (gap_m >= price::kPoliteCoat_m) continue;
-        const auto more =
-            static_cast<std::uint32_t>(gap_m < price::kPoseCoat_m ? price::kPoseStanding : price::kPolite);
+        const auto gap_m = static_cast<float>(body_.distance_to(seen) - pedestrian.radius_m);
+        if (gap_m >= price::kPolite_m) continue;
+        const auto more = static_cast<std::uint32_t>(gap_m < price::kBeside_m ? price::kBeside : price::kPolite);
         std::uint8_t& dearer = dearer_[slot_of(Lattice::at(i, j, h))];
         dearer = static_cast<std::uint8_t>(std::min(255U, dearer + more * price::kRateOfOpen));
       }

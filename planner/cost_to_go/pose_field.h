@@ -16,7 +16,7 @@ struct PoseFieldRequest {
   const Guide& guide;
   Pose2 map_from_robot;
   Vec2 goal_in_map;
-  std::span<const MoverDisc> movers;  ///< ways past those that last are dear
+  std::span<const StandingPedestrian> standing = {};  ///< ways past them are dear
   PoseRequest asked;
 };
 
@@ -47,9 +47,7 @@ class PoseField {
   PoseGuide settle(const PoseFieldRequest& request, Memory& memory) noexcept;
 
  private:
-  /// Whether there is any.
-  [[nodiscard]] bool weigh_standing(const PoseFieldRequest& request, const PoseGuide& guide) noexcept;
-  void weigh_standing(const MoverDisc& mover, const PoseGuide& guide) noexcept;
+  void weigh_standing(const StandingPedestrian& pedestrian, const PoseGuide& guide) noexcept;
   /// False where the goal lies beyond the square.
   [[nodiscard]] bool sow_goal(const PoseFieldRequest& request, const PoseGuide& guide, Memory& memory) noexcept;
   void sow_rim(const PoseFieldRequest& request, PoseGuide& guide, Memory& memory) noexcept;

@@ -10,9 +10,12 @@ namespace jaywalk::price {
 inline constexpr float kPoseLeast_m = 0.045F;                   ///< nearer than this to a surface there is no way
 inline constexpr float kPoseNear = 20.0F, kPoseNear_m = 0.15F;  ///< a second more at the edge, and how far that reaches
 inline constexpr float kPoseBy = 0.6F, kPoseBy_m = 0.28F;
-inline constexpr float kPoseStanding = 10.0F, kPoseCoat_m = 0.05F;  ///< so near a pedestrian that stands
-/// Farther off, out to a gap at which it may pass at 1 m/s (MoverCost, kTooFast).
-inline constexpr float kPolite = 2.0F, kPoliteCoat_m = 1.0F;
+// Beside a pedestrian that stands, by the gap to its disc; the same for cells and for poses.
+/// Nearer the robot does not pass. At 0 and 0.12 a wheelchair left 0.00 and 0.15 m, at 0.2 0.3 m (WORLDS passages, seed
+/// 331).
+inline constexpr float kFromStanding_m = 0.2F;
+inline constexpr float kBeside = 4.0F, kBeside_m = 0.25F;  ///< a second more. At 10 it circled before narrow passages
+inline constexpr float kPolite = 2.0F, kPolite_m = 1.0F;   ///< the same, out to where it may pass at 1 m/s (kTooFast)
 /// Beyond the lattice: facing across the way, and twice as much facing back; and so far ahead that is looked for.
 inline constexpr float kFacing_s = 1.3F, kFacing_m = 0.35F;
 

@@ -151,6 +151,7 @@ PlanStatus TimeToGoPlanner::plan_by_times(const PlanRequest& request, Plan& plan
   const TimeToGoRequest asked{.window = result.window,
                               .still = request.still,
                               .movers = request.masked,
+                              .standing = request.standing,
                               .robot_in_map = robot,
                               .goal_in_map = request.goal_in_map,
                               .speed_mps = request.speed_mps,
@@ -160,7 +161,7 @@ PlanStatus TimeToGoPlanner::plan_by_times(const PlanRequest& request, Plan& plan
     plan.poses = poses_.settle({.guide = plan.guide,
                                 .map_from_robot = request.map_from_robot,
                                 .goal_in_map = request.goal_in_map,
-                                .movers = request.masked,
+                                .standing = request.standing,
                                 .asked = request.poses},
                                result.poses);
   }

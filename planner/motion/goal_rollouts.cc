@@ -154,7 +154,7 @@ float GoalRollouts::conflict_price() const noexcept {
   float walked_mps = 0.0F;
   for (const MoverBelief& b : memory().beliefs()) {
     const float dx = b.x - decision_.start.x, dy = b.y - decision_.start.y;
-    const bool walks = b.has_walked && b.stood_s < kLongPauseS;
+    const bool walks = b.has_walked && !b.has_stood();
     if (walks && dx * dx + dy * dy < price::kAboutM * price::kAboutM) walked_mps += b.usual_mps;
   }
   walked_mps += 0.5F * static_cast<float>(memory().hidden().size()) / kFutures * memory().turning().usual_mps;
@@ -163,14 +163,17 @@ float GoalRollouts::conflict_price() const noexcept {
 }
 
 void GoalRollouts::note_progress(const Situation& situation, Time now) noexcept {
-  stall_.wound_rad += cell::wrapped(situation.start.heading - heading_);
-  heading_ = situation.start.heading;
+  const bool is_new = stalled_since_ == kNever || now < noted_;
+  const auto since_s = static_cast<float>(is_new ? 0.0 : std::min(1.0, to_seconds(now - noted_)));
+  noted_ = now;
+  note_turning(situation.start, since_s);
   const float to_go_s = situation.time_to_go(decision_.start), rise_s = to_go_s - to_go_s_;
   const bool map_changed = std::fabs(rise_s) > kMapChanges_s;
   if (map_changed) stall_.least_to_go_s += rise_s;
   to_go_s_ = to_go_s;
-  note_lost(map_changed ? 0.0F : -rise_s, now);
-  if (stalled_since_ == kNever || now < stalled_since_ || stall_.gets_on(to_go_s)) {
+  const float lost_s = stall_.lost_s + since_s - price::kWonBack * (map_changed ? 0.0F : -rise_s);
+  stall_.lost_s = is_new ? 0.0F : std::clamp(lost_s, 0.0F, price::kMostLostS);
+  if (is_new || stall_.gets_on(to_go_s)) {
     stall_.least_to_go_s = to_go_s;
     stall_.wound_rad = 0.0F;
     stalled_since_ = now;
@@ -181,13 +184,13 @@ void GoalRollouts::note_progress(const Situation& situation, Time now) noexcept 
   stall_.for_s = static_cast<float>(to_seconds(now - stalled_since_));
 }
 
-/// `won_s`: the fall of the time to go since the last decision; 0 where the map changed it.
-void GoalRollouts::note_lost(float won_s, Time now) noexcept {
-  const bool is_new = stalled_since_ == kNever || now < noted_;
-  const auto since_s = static_cast<float>(is_new ? 0.0 : std::min(1.0, to_seconds(now - noted_)));
-  const float lost_s = stall_.lost_s + since_s - price::kWonBack * won_s;
-  stall_.lost_s = is_new ? 0.0F : std::clamp(lost_s, 0.0F, price::kMostLostS);
-  noted_ = now;
+/// A robot at rest forgets how far it has turned: to turn on is then no circle.
+void GoalRollouts::note_turning(const RobotState& now, float since_s) noexcept {
+  const float wound = stall_.wound_rad + cell::wrapped(now.heading - heading_);
+  const bool rests = std::fabs(now.v) < kRestsMps && std::fabs(now.w) < kRestsMps;
+  const float forgotten = rests ? price::kUnwindsRadps * since_s : 0.0F;
+  stall_.wound_rad = std::copysign(std::max(0.0F, std::fabs(wound) - forgotten), wound);
+  heading_ = now.heading;
 }
 
 RolloutMotion::Next GoalRollouts::next(const World& world, const Intent& intent, const RobotState& now) noexcept {

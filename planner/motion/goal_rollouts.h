@@ -39,7 +39,7 @@ class GoalRollouts final : public RolloutMotion {
   [[nodiscard]] float conflict_price() const noexcept;
   void search(const Situation& situation) noexcept;
   void note_progress(const Situation& situation, Time now) noexcept;
-  void note_lost(float won_s, Time now) noexcept;
+  void note_turning(const RobotState& now, float since_s) noexcept;
   [[nodiscard]] bool is_there(const World& world) const noexcept;
 
   Trajectory trial_, best_;

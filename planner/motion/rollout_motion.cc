@@ -92,6 +92,7 @@ PlanRequest RolloutMotion::request(const World& world) const noexcept {
           .goal_in_map = world.input.goal_in_map,
           .speed_mps = setup_.model.limits.max_speed_mps,
           .still = &world.perceived.still,
+          .standing = memory_.standing(),
           .masked = memory_.masked(),
           .poses = poses_asked(world)};
 }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "planner/cost_to_go/pose_price.h"
+
 namespace jaywalk::motion {
 namespace {
 constexpr std::uint32_t kPurpose = 1;  ///< of the draws; a decision's other draws have others
@@ -26,11 +28,13 @@ void Futures::draw(std::span<const MoverBelief> seen, std::span<const Pedestrian
           PedestrianSample::drawn(belief, turning, guide, cell::Draws({decision, kPurpose, belief.id, k}));
     }
     newcomer_[movers_] = belief.newcomer;
-    stood_[movers_] = belief.stood_s > kLongPauseS;
+    stood_[movers_] = belief.has_stood();
     surface_[movers_] = !belief.has_walked || stood_[movers_];
-    if (belief.has_walked && stood_[movers_]) standing_[standing_count_++] = {belief.x, belief.y, belief.radius_m};
+    if (belief.stands())
+      standing_[standing_count_++] = {belief.x, belief.y, belief.radius_m + jaywalk::price::kFromStanding_m};
     radius_[movers_++] = belief.radius_m;
   }
+  seen_ = movers_;
   for (std::size_t at = 0; at + kFutures <= hidden.size() && movers_ < kMostMovers; at += kFutures) {
     std::copy_n(hidden.begin() + static_cast<std::ptrdiff_t>(at), kFutures, walkers_[movers_].in);
     surface_[movers_] = newcomer_[movers_] = stood_[movers_] = false;

@@ -45,6 +45,11 @@ struct MoverBelief {
   bool has_walked = false;
   bool newcomer = false;  ///< neither seen to walk nor to have legs: furniture, most likely
   float stood_s = 0.0F;   ///< in one place
+
+  static constexpr float kLongPauseS = 4.0F;  ///< one that has stood for longer may stand for any time
+  [[nodiscard]] bool has_stood() const { return stood_s > kLongPauseS; }
+  /// A pedestrian that has stood for long: a body to go round.
+  [[nodiscard]] bool stands() const { return has_walked && has_stood(); }
 };
 
 /// A drawn speed below half the usual one, or this if that is less, is no walking speed: it walks at its usual one.
@@ -54,8 +59,7 @@ inline constexpr float kStandsMps = static_cast<float>(kStartsMps);
 inline constexpr float kTurnsAtRadps = 1.5F;  ///< before it goes on in another direction
 inline constexpr float kLookAheadM = 0.5F;    ///< what lies nearer than this before a mover makes it turn
 inline constexpr float kPausesForS = 2.0F;    ///< at most, a pedestrian that walked and stands now
-inline constexpr float kLongPauseS = 4.0F;    ///< one that has stood for longer may stand for any time:
-inline constexpr float kStandsForS = 6.0F;    ///< on average, or as long again as it has stood
+inline constexpr float kStandsForS = 6.0F;    ///< on average, one that has stood for long; or as long as it has stood
 
 /// Whether a surface lies in the quarter circle of `reach` m ahead of a place: looked for in four discs that fill it.
 JAYWALK_ANYWHERE bool faces_surface(const Guide& guide, float x, float y, const cell::Heading& along, float reach) {
@@ -122,7 +126,7 @@ struct PedestrianSample {
     if (w.walks) return w;
     w.face(cell::kPiF * w.draws.either_way());
     (void)w.look_for_way(guide);
-    const bool for_long = !b.has_walked || b.stood_s > kLongPauseS;
+    const bool for_long = !b.has_walked || b.has_stood();
     const float least = b.has_walked ? kStandsForS : 1.0F / turning.walks_off_hz();
     const float expected = b.stood_s > least ? b.stood_s : least;
     w.wait_s = for_long ? w.draws.waiting_s(1.0F / expected) : kPausesForS * w.draws.uniform();
@@ -181,6 +185,7 @@ class Futures {
             const Guide& guide, std::uint32_t decision) noexcept;
 
   [[nodiscard]] std::size_t movers() const { return movers_; }
+  [[nodiscard]] bool is_hidden(std::size_t mover) const { return mover >= seen_; }
   /// While it stands it is a surface: the map's, if it was never seen to walk, or one of standing().
   [[nodiscard]] bool is_surface(std::size_t mover) const { return surface_[mover]; }
   /// Pedestrians that have stood for long, where they stand: the same in all futures.
@@ -208,7 +213,7 @@ class Futures {
   StandingDisc standing_[kMostMovers] = {};
   std::size_t standing_count_ = 0;
   std::uint32_t blocked_[kMostMovers] = {};  ///< a bit a future
-  std::size_t movers_ = 0;
+  std::size_t movers_ = 0, seen_ = 0;        ///< those seen come first
 };
 
 }  // namespace jaywalk::motion

@@ -7,8 +7,7 @@
 
 namespace jaywalk::motion {
 namespace {
-constexpr double kWithinM = 9.0;   ///< of the robot: more than both come in 6 s
-constexpr double kLastingS = 5.0;  ///< a track that has stood for longer is in the way for now
+constexpr double kWithinM = 9.0;  ///< of the robot: more than both come in 6 s
 constexpr double kUnknownForS = static_cast<double>(TurningModel::kNewForS);  ///< a body that is new may walk off
 constexpr double kSeenForS = 0.5;                                             ///< shorter: noise, no newcomer
 constexpr double kWalksFromTheStartS = 1.0;  ///< known to walk sooner than this: it did not stand
@@ -160,10 +159,10 @@ void MoverHistory::believe(const Seen& seen) noexcept {
   const Vec2 robot = seen.map_from_robot.position();
   beliefs_.clear();
   masked_.clear();
+  standing_.clear();
   for (const History& m : histories_) {
     if (m.has_walked()) {
-      const bool lasting = stood_s(m.track, seen.now) > kLastingS;
-      (void)masked_.push_back({m.track.position_in_map, m.track.radius_m, lasting});
+      (void)masked_.push_back({m.track.position_in_map, m.track.radius_m});
     }
     if (distance(m.track.position_in_map, robot) < kWithinM && may_walk(m, seen)) {
       (void)beliefs_.push_back(belief_of(m, seen.now));
@@ -177,6 +176,10 @@ void MoverHistory::believe(const Seen& seen) noexcept {
   std::sort(beliefs_.begin(), beliefs_.end(), [&away](const MoverBelief& a, const MoverBelief& b) {
     return away(a) != away(b) ? away(a) < away(b) : a.id < b.id;
   });
+  for (const MoverBelief& b : beliefs_)
+    if (b.stands())
+      (void)standing_.push_back(
+          {{static_cast<double>(b.x), static_cast<double>(b.y)}, static_cast<double>(b.radius_m)});
 }
 
 /// Standing pedestrians that are no tracks: they may start to walk as well.

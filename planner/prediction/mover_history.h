@@ -36,6 +36,8 @@ class MoverHistory {
   [[nodiscard]] const TurningModel& turning() const { return turning_; }
   /// Bodies that the map may hold and that are no walls.
   [[nodiscard]] std::span<const MoverDisc> masked() const { return {masked_.data(), masked_.size()}; }
+  /// Those of beliefs() that stand.
+  [[nodiscard]] std::span<const StandingPedestrian> standing() const { return {standing_.data(), standing_.size()}; }
 
  private:
   /// One look at a track, half a second after the one before.
@@ -73,6 +75,7 @@ class MoverHistory {
   FixedVector<History, kMaxTracks> histories_;
   FixedVector<MoverBelief, kMaxTracks> beliefs_;
   FixedVector<MoverDisc, kMaxTracks> masked_;
+  StandingPedestrians standing_;
   OccludedMovers occluded_;
   TurningModel turning_;
   Time before_ = kNever;

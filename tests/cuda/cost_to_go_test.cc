@@ -102,7 +102,7 @@ TEST_CASE("emulated: times from cells and from poses are the processor's on rand
       for (int i = 12; i < 40; ++i) ground.forget({i, j});
     }
     Chair cpu(ground), gpu(ground, &rig.settler);
-    if (seed == 3) cpu.movers.push_back({{0.9, 0.4}, 0.25, true}), gpu.movers = cpu.movers;
+    if (seed == 3) cpu.standing.push_back({{0.9, 0.4}, 0.25}), gpu.standing = cpu.standing;
     const Vec2 goal = direction(1.1 * static_cast<double>(seed)) * (seed % 2 == 0 ? 2.2 : 5.0);
     known += check_same(cpu, gpu, {0.0, 0.0, 0.7 * static_cast<double>(seed)}, goal, seed % 2 == 0 ? 1.0 : kAnyHeading);
     // The second is repaired from the first where the ground is the same.

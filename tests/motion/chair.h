@@ -19,7 +19,8 @@ struct Chair {
     const field::Window window{{-118, -118}, 256, 0.1};
     guide = places_.settle({.window = window,
                             .still = &ground_.map(),
-                            .movers = movers,
+                            .movers = {},
+                            .standing = standing,
                             .robot_in_map = robot.position(),
                             .goal_in_map = goal,
                             .speed_mps = 0.6},
@@ -28,7 +29,7 @@ struct Chair {
     return poses = field_.settle({.guide = guide,
                                   .map_from_robot = robot,
                                   .goal_in_map = goal,
-                                  .movers = movers,
+                                  .standing = standing,
                                   .asked = {.is_asked = true,
                                             .speeds = kSpeeds,
                                             .wants_heading = wants,
@@ -48,7 +49,7 @@ struct Chair {
   static constexpr PoseSpeeds kSpeeds{.forward = 0.6F, .back = 0.3F, .turn = 1.0F, .spot = 0.5F};
   Guide guide;
   PoseGuide poses;
-  std::vector<MoverDisc> movers;
+  std::vector<StandingPedestrian> standing;
   field::PoseField::Memory memory;
 
  private:

@@ -144,6 +144,37 @@ TEST_CASE("one scan that drops a walker's velocity to nothing is not believed") 
   CHECK(memory.masked().size() == 1);
 }
 
+TEST_CASE("a pedestrian that has stood for more than four seconds stands, known by a track or by two legs alone") {
+  test::Guided g;
+  (void)g.towards({0.0, -3.0}, {5.0, 5.0});
+  const LaserScan scan = open_scan();
+  const Time now = time_from_seconds(10.0);
+  const auto standing_after = [&](double stood_s, bool is_track) {
+    MoverHistory memory;
+    const Time since = now - duration_from_seconds(stood_s);
+    Track track = track_at(3, {1.0, 2.0}, {}, now);
+    track.still_since = since, track.has_walked = true;
+    const StandingPedestrian legs{{1.0, 2.0}, 0.25, now, since};
+    memory.update({.now = now,
+                   .stamp = now,
+                   .map_from_robot = {0.0, -3.0, 0.0},
+                   .tracks = {&track, is_track ? 1U : 0U},
+                   .standing = {&legs, is_track ? 0U : 1U},
+                   .still = g.map(),
+                   .scans = SeenFrom{&scan, {0.0, -3.0, 0.0}},
+                   .guide = g.guide()});
+    REQUIRE(memory.beliefs().size() == 1);
+    return std::vector<StandingPedestrian>(memory.standing().begin(), memory.standing().end());
+  };
+  for (const bool is_track : {true, false}) {
+    CHECK(standing_after(3.5, is_track).empty());
+    const std::vector<StandingPedestrian> standing = standing_after(4.5, is_track);
+    REQUIRE(standing.size() == 1);
+    CHECK(distance(standing[0].position_in_map, {1.0, 2.0}) < 0.01);
+    CHECK(standing[0].radius_m == Approx(is_track ? 0.27 : 0.25));
+  }
+}
+
 TEST_CASE("a walker out of sight lives on, until his places are seen to be empty") {
   test::Guided g;
   (void)g.towards({0.0, -3.0}, {5.0, 5.0});

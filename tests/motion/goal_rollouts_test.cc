@@ -62,6 +62,16 @@ class Drive {
     return 0.0;
   }
 
+  /// The supervisor holds the robot.
+  void hold(double for_s) {
+    for (double t = 0.0; t < for_s; t += 4 * kTick) {
+      clock_s_ += 4 * kTick;
+      moment_.now = time_from_seconds(clock_s_ + 1.0);
+      twist = {};
+      decide();
+    }
+  }
+
   /// A person steers the robot straight forward or backward for `for_s` seconds; the planner only counts the way.
   void steer(double v_mps, double for_s) {
     tests::Moment steered(ground_.map());
@@ -310,4 +320,20 @@ TEST_CASE("without a decision for half a second it stops") {
   GoalRollouts planner({.model = p3dx()});
   for (int k = 0; k < 100; ++k) moment.now += duration_from_seconds(kTick), moment.drive(planner, 0.0);
   CHECK(moment.driven == Twist2{});
+}
+
+TEST_CASE("a robot that has rested forgets how far it had turned: it turns the short way, though that ends a circle") {
+  for (const double rested_s : {0.5, 10.0}) {
+    test::Guided ground;
+    Drive drive(ground, {5.0, 0.0});
+    drive.run(1.0);
+    for (const double heading : {1.3, 2.6, 3.9, 5.0}) {  // to the left, and no nearer
+      drive.pose.heading = wrap_angle(heading);
+      drive.run(kTick);
+    }
+    drive.hold(rested_s);
+    drive.run(1.0);
+    CAPTURE(rested_s, drive.twist.w_radps);
+    CHECK((drive.twist.w_radps > 0.1) == (rested_s > 5.0));
+  }
 }

@@ -19,6 +19,7 @@ class Guided {
     guide_ = field_.settle({.window = window,
                             .still = &ground_.map(),
                             .movers = movers,
+                            .standing = standing,
                             .robot_in_map = robot,
                             .goal_in_map = goal,
                             .speed_mps = 0.6},
@@ -29,6 +30,7 @@ class Guided {
   [[nodiscard]] const EvidenceMap& map() const { return ground_.map(); }
 
   std::vector<MoverDisc> movers;
+  std::vector<StandingPedestrian> standing;
 
  private:
   tests::WalledGround ground_;

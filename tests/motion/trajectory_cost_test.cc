@@ -179,9 +179,9 @@ TEST_CASE("who has stood for long is a surface as wide as a person, though the m
     return trajectory_cost({body, guide, *futures, kNothing, RobotState{}, {4.0F, 0.0F}, 0.0F, {}, 0.24F}, held, 1e9F);
   };
   const float side = static_cast<float>(p3dx().footprint.half_width_m) + 0.25F;
-  CHECK(cost_beside(side - 0.05F, 10.0F).touch > 400.0F);
-  CHECK(cost_beside(side + 0.1F, 10.0F).touch == 0.0F);
-  CHECK(cost_beside(side + 0.1F, 10.0F).clearance > cost_beside(side + 0.2F, 10.0F).clearance);
+  CHECK(cost_beside(side + 0.15F, 10.0F).touch > 400.0F);  // no nearer than kFromStanding_m
+  CHECK(cost_beside(side + 0.25F, 10.0F).touch == 0.0F);
+  CHECK(cost_beside(side + 0.25F, 10.0F).clearance > cost_beside(side + 0.35F, 10.0F).clearance);
   CHECK(cost_beside(side + 0.1F, 1.0F).clearance == 0.0F);  // may go on at once, and is met, not passed
 }
 

@@ -210,7 +210,7 @@ TEST_CASE("past a pedestrian that stands the way is dear, and not closed") {
   Chair chair(ground);
   chair.from({0.6, 0.0, 0.0}, {3.2, 0.0});
   const float free = chair.seconds(0.6, 0.0, 0.0);
-  chair.movers.push_back({{2.03, 0.0}, 0.25, true});
+  chair.standing.push_back({{2.03, 0.0}, 0.25});
   REQUIRE(chair.from({0.6, 0.0, 0.0}, {3.2, 0.0}).known);
   CHECK(chair.seconds(0.6, 0.0, 0.0) > free + 3.0F);
 }

@@ -76,16 +76,18 @@ TEST_CASE("a repaired guide has the bytes of one from nothing: walls, bodies, ro
                                                field::TimeToGoField::Memory(kSide)};
     EvidenceMap evidence = seen(room.next(), random, 3);
     Vec2 robot{5.4, 5.4};
-    std::vector<MoverDisc> movers{{{2.0, 3.0}, 0.3, true}, {{4.0, 4.0}, 0.25, false}};
+    std::vector<MoverDisc> movers{{{2.0, 3.0}, 0.3}, {{4.0, 4.0}, 0.25}};
+    std::vector<StandingPedestrian> standing;
     for (int tick = 0; tick < 40; ++tick) {
       if (random.below(4) == 0) evidence = seen(room.next(), random, random.below(20));
       robot = robot + Vec2{random.unit() - 0.6, random.unit() - 0.6} * 0.1;
       for (MoverDisc& mover : movers)
         mover.centre_in_map = mover.centre_in_map + Vec2{0.05, random.unit() * 0.1 - 0.05};
-      if (random.below(10) == 0) movers[0].lasting = !movers[0].lasting;
+      if (standing.empty() || random.below(10) == 0)
+        standing = {{movers[random.below(2) == 0 ? 0 : 1].centre_in_map, 0.25}};
       const Vec2 goal = tick % 13 == 12 ? Vec2{20.0, 1.0} : Vec2{0.45, 0.45};
       const field::Window window{{tick < 30 ? 0 : 16, 0}, kSide, 0.1};
-      const field::TimeToGoRequest request{window, &evidence, movers, robot, goal, tick % 7 == 0 ? 0.6 : 0.5};
+      const field::TimeToGoRequest request{window, &evidence, movers, standing, robot, goal, tick % 7 == 0 ? 0.6 : 0.5};
       field::TimeToGoField::Memory fresh(kSide);
       const Guide a = kept.settle(request, memories[tick % 2]);
       const Guide b = field::TimeToGoField(0.19, 0.3, kSide).settle(request, fresh);

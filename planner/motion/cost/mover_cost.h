@@ -44,8 +44,7 @@ class MoverCost {
     for (std::size_t m = 0; m < s_.futures.movers(); ++m) {
       const MoverAt& at = s_.futures.at(at_step, m);
       const float radius = s_.futures.radius(m);
-      const float most = at.spread + std::max(radius + kZoneM + discs.radius + 0.1F,
-                                              s_.body.comfort_distance_m + price::kBeforeStandingM);
+      const float most = at.spread + std::max(radius + kZoneM + discs.radius + 0.1F, s_.body.comfort_distance_m);
       for (int k = 0; k < discs.count; ++k) {
         const Place disc = disc_at(r, along, k);
         const float dx = disc.x - at.mid_x, dy = disc.y - at.mid_y;
@@ -73,17 +72,15 @@ class MoverCost {
   void add_disc(const RobotState& r, Place disc, Pair of, const MoverAt& at, Sum& all) const noexcept {
     const BodyDiscs& discs = s_.body.to_movers;
     const bool has_stood = s_.futures.has_stood(of.mover);  // a surface until it sets out: standing()
-    const float comfort_m = s_.body.comfort_distance_m + (has_stood && s_.is_long() ? price::kBeforeStandingM : 0.0F);
     const Interaction with = interaction(at, s_.futures.radius(of.mover), s_.futures.is_surface(of.mover),
-                                         {disc.x, disc.y, discs.radius, std::fabs(r.v)}, comfort_m);
+                                         {disc.x, disc.y, discs.radius, std::fabs(r.v)}, s_.body.comfort_distance_m);
     (has_stood ? all.stood : all.met) |= with.met;
     if (with.touched != 0 && !has_stood && rim_mps(r) > kRestsMps) {
       const Place before = disc_at(s_.start, cell::heading_at(s_.start.heading), of.disc);
       all.touched |= nearer(with.touched, disc, at, before, s_.futures.at(0, of.mover));
     }
-    // Nearness to standing movers is paid by the metre, so that waiting gains nothing; by a long body by the second,
-    // so that it waits farther off.
-    const float way = s_.is_long() ? 1.0F : std::min(1.0F, rim_mps(r) / s_.body.bounds.speed);
+    // Nearness to standing movers is paid by the metre, so that waiting gains nothing.
+    const float way = std::min(1.0F, rim_mps(r) / s_.body.bounds.speed);
     all.nearness += with.nearness + way * with.beside;
     if (!s_.futures.is_newcomer(of.mover)) all.too_fast += with.too_fast;
   }

@@ -32,12 +32,11 @@ inline constexpr float kConflictFadesS = 4.0F;  ///< ahead by so much it counts 
 inline constexpr float kStandingWeight = 0.1F;
 
 // Nearness to movers (mover_cost.h): each look, 0.2 s.
-inline constexpr float kBeforeStandingM = 0.6F;  ///< farther off, a long body waits until one that stands goes on
-inline constexpr float kNearMover = 0.15F;       ///< a square metre within the comfort distance
+inline constexpr float kNearMover = 0.15F;  ///< a square metre within the comfort distance
 /// A m/s faster beside a standing mover than the gap within a second, or than kPoliteMps (decision
-/// standing-pedestrians). At 1.6 the P3-DX went by at 0.6 m/s, 13 cm off (0069: passage.toml);
-/// at 4, 3 of 24 seeds of that world went by at 0.35 to 0.38 m/s.
-inline constexpr float kTooFast = 6.0F;
+/// standing-pedestrians). At 6 a wheelchair passed at 0.58 m/s, 0.3 m off, at 12 at 0.39 m/s (WORLDS passages, seed
+/// 331, 1.8 m wide).
+inline constexpr float kTooFast = 12.0F;
 inline constexpr float kPoliteMps = 0.2F;
 
 // Surfaces (ground_cost.h).
@@ -90,6 +89,9 @@ inline constexpr float kMostAloneS = 12.0F;
 /// was at most 1.87 and 1.33 of the shortest, with a loop in 1 and 0 of 24 runs (crossing.toml, 16 movers, seeds 101 to
 /// 124, kLeastConflict 70).
 inline constexpr float kWound = 6.0F;
+/// At rest it forgets so much of that net turn, rad/s. Without it a wheelchair that had turned aside by 3.9 rad for a
+/// walker stood for ever in a room that was empty by then: each way on was a circle.
+inline constexpr float kUnwindsRadps = 0.3F;
 inline constexpr float kArrivedEarly = 0.5F;  ///< taken back at the goal
 /// So far ahead and back the guide is asked for what facing away costs: 2 s at most. At 3 s 17 of 20 runs (decision
 /// motion-prices).
