@@ -11,8 +11,7 @@ inline constexpr float kPoseLeast_m = 0.045F;                   ///< nearer than
 inline constexpr float kPoseNear = 20.0F, kPoseNear_m = 0.15F;  ///< a second more at the edge, and how far that reaches
 inline constexpr float kPoseBy = 0.6F, kPoseBy_m = 0.28F;
 // Beside a pedestrian that stands, by the gap to its disc; the same for cells and for poses.
-/// Nearer the robot does not pass. At 0 and 0.12 a wheelchair left 0.00 and 0.15 m, at 0.2 0.3 m (WORLDS passages, seed
-/// 331).
+/// Nearer the robot does not pass: at 0.12 a wheelchair left 0.15 m, at 0.2 0.28 m (WORLDS passages, seed 331).
 inline constexpr float kFromStanding_m = 0.2F;
 inline constexpr float kBeside = 4.0F, kBeside_m = 0.25F;  ///< a second more. At 10 it circled before narrow passages
 inline constexpr float kPolite = 2.0F, kPolite_m = 1.0F;   ///< the same, out to where it may pass at 1 m/s (kTooFast)

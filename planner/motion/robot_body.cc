@@ -14,8 +14,6 @@ constexpr float kMostTurn = 1.2F, kMostTurnAccel = 2.0F;  ///< comfort: a passen
 constexpr float kSlowing = 0.65F;
 constexpr float kMostJerk = 0.75F;  ///< SAFETY's 0.9 m/s3, measured behind the wheels' lag, over 0.1 s
 constexpr float kBackMps = 0.3F;    ///< SAFETY: where the scanner does not look
-/// A body is long from this difference of its circumscribed and inscribed radius, m: wheelchair 0.49, P3-DX 0.16.
-constexpr double kLong_m = 0.25;
 constexpr double kOverSides_m = 0.02, kOverSidesAmongMovers_m = 0.06;
 
 constexpr double kSettled_m = 0.1;  ///< before a zone begins the drives have the last of the ramp behind them
@@ -28,7 +26,6 @@ RobotBody robot_body(const Footprint& f, const MotionLimits& l, const OfEach<Las
   body.outline = BodyOutline::of(f);
   body.to_walls = BodyDiscs::covering(f, kOverSides_m);
   body.to_movers = BodyDiscs::covering(f, kOverSidesAmongMovers_m);
-  body.is_long = f.circumscribed_radius_m() > f.inscribed_radius_m() + kLong_m;
   body.rim_m = static_cast<float>(f.circumscribed_radius_m());
   body.comfort_distance_m = static_cast<float>(comfort_distance_m);
   body.blind = BlindRim(f, lasers);

@@ -112,7 +112,6 @@ struct RobotBody {
   BodyOutline outline;              ///< to walls, by a stick or near them: discs reach beyond a body's sides
   std::array<Place, 8> rim{};       ///< corners and the sides' middles, in the robot's frame
   float rim_m = 0.0F;               ///< farthest point from the axle
-  bool is_long = false;             ///< it needs much more room to turn on the spot than to drive: kLong_m
   float comfort_distance_m = 1.0F;  ///< from a disc's middle to a mover's: nearer costs
   BlindRim blind;                   ///< where the supervisor lets it go slowly
   MotionBounds bounds;

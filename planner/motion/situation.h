@@ -36,7 +36,6 @@ struct Situation {
   float conflict_price_s = price::kConflict;  ///< of being in a mover's way
   KnownBehind known_behind = {};              ///< at the start
 
-  [[nodiscard]] bool is_long() const noexcept { return body.is_long && poses != nullptr; }
   /// Whether there is a way from poses near the robot.
   [[nodiscard]] bool goes_by_poses() const noexcept { return poses != nullptr && poses->known; }
   [[nodiscard]] bool is_at_goal(const RobotState& at) const noexcept {

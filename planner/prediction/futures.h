@@ -43,9 +43,8 @@ struct MoverBelief {
   float radius_m = 0.0F;
   float usual_mps = 0.0F;  ///< its own when it walks, or that of others
   bool has_walked = false;
-  bool newcomer = false;  ///< neither seen to walk nor to have legs: furniture, most likely
-  float stood_s = 0.0F;   ///< in one place
-
+  bool newcomer = false;                      ///< neither seen to walk nor to have legs: furniture, most likely
+  float stood_s = 0.0F;                       ///< in one place
   static constexpr float kLongPauseS = 4.0F;  ///< one that has stood for longer may stand for any time
   [[nodiscard]] bool has_stood() const { return stood_s > kLongPauseS; }
   /// A pedestrian that has stood for long: a body to go round.

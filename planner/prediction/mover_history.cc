@@ -24,9 +24,6 @@ constexpr double kTurnSine = 0.43;  ///< of 0.45 rad, in half a second: it has t
 
 double speed_of(const Track& t) { return norm(t.velocity_in_map); }
 
-/// Time that a track has stayed in one place, s; 0 where that is not known yet.
-double stood_s(const Track& t, Time now) { return t.still_since == kNever ? 0.0 : to_seconds(now - t.still_since); }
-
 bool is_as_wide_as_a_body(const Track& t) { return t.radius_m > kLeastBodyM && t.radius_m < kWidestBodyM; }
 
 }  // namespace
@@ -152,7 +149,7 @@ MoverBelief MoverHistory::belief_of(const History& m, Time now) const noexcept {
           .usual_mps = m.usual_mps > 0.1 ? f(m.usual_mps) : turning_.usual_mps,
           .has_walked = m.has_walked(),
           .newcomer = !m.has_walked(),
-          .stood_s = f(stood_s(m.track, now))};
+          .stood_s = t.still_since == kNever ? 0.0F : f(to_seconds(now - t.still_since))};
 }
 
 void MoverHistory::believe(const Seen& seen) noexcept {
