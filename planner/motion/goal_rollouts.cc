@@ -187,7 +187,8 @@ void GoalRollouts::note_progress(const Situation& situation, Time now) noexcept 
 /// A robot at rest forgets how far it has turned: to turn on is then no circle.
 void GoalRollouts::note_turning(const RobotState& now, float since_s) noexcept {
   const float wound = stall_.wound_rad + cell::wrapped(now.heading - heading_);
-  const float forgotten = std::fabs(now.v) + std::fabs(now.w) < kRestsMps ? price::kUnwindsRadps * since_s : 0.0F;
+  const bool rests = std::fabs(now.v) < kRestsMps && std::fabs(now.w) < kRestsMps;
+  const float forgotten = rests ? price::kUnwindsRadps * since_s : 0.0F;
   stall_.wound_rad = std::copysign(std::max(0.0F, std::fabs(wound) - forgotten), wound);
   heading_ = now.heading;
 }
