@@ -59,7 +59,7 @@ struct PlanRequest {
   double speed_mps = 0.0;              ///< the robot's cruising speed: warp numbers count its travel
   const EvidenceMap* still = nullptr;  ///< walls; read during submit only
   std::span<const Track> moving = {};  ///< for marks (planner/paper); copied during submit
-  /// As wide as they are: ways beside them are dear, the potential's lead round them. Read during submit only.
+  /// Standing pedestrians, with body radius: time to go is dear beside them, potential closed. Read during submit only.
   std::span<const StandingPedestrian> standing = {};
   std::span<const MoverDisc> masked = {};  ///< for the time to go; read during submit only
   PoseRequest poses{};

@@ -36,7 +36,7 @@ class MoverHistory {
   [[nodiscard]] const TurningModel& turning() const { return turning_; }
   /// Bodies that the map may hold and that are no walls.
   [[nodiscard]] std::span<const MoverDisc> masked() const { return {masked_.data(), masked_.size()}; }
-  /// Those of beliefs() that stand.
+  /// Pedestrians within reach of the robot that have stood for over four seconds, tracked or not.
   [[nodiscard]] std::span<const StandingPedestrian> standing() const { return {standing_.data(), standing_.size()}; }
 
  private:

@@ -11,7 +11,7 @@ using namespace jaywalk;
 
 namespace {
 
-/// A scan whose beams have directions, and no range yet.
+/// A scan with beam directions over `view_rad` and all ranges 0 m; the caller fills in the ranges.
 LaserScan scan_of(std::uint32_t beams, double view_rad, float reach_m) {
   LaserScan scan;
   scan.sequence = 1;
@@ -100,8 +100,8 @@ TEST_CASE("among posts no match is much more likely than the truth") {
 }
 
 TEST_CASE("a round surface is where it was: its bend is no error") {
-  // By hand: over a chord of 2 x 0.1 m a circle of 0.5 m bends by 0.1 x 0.1 / (2 x 0.5) = 10 mm. From its line of least
-  // squares the middle is off by a third of that (measured up to 7 mm where it is seen at a slant).
+  // The sagitta, by hand: a circle of 0.5 m bends by 0.1 x 0.1 / (2 x 0.5) = 10 mm over 2 x 0.1 m. From its line of
+  // least squares the middle is off by a third of that (measured up to 7 mm where it is seen at a slant).
   std::mt19937_64 engine(1);
   const LaserScan scan = among({{2.0, 0.0}}, 0.5, {}, 0.0, engine);
   ScanPair pair{Pose2{}};
