@@ -44,7 +44,7 @@ std::vector<Track> walkers_round(Vec2 middle, int count) {
     t.velocity_in_map = direction(1.7 * k) * 0.4;
     t.covariance = {0.001, 0.0, 0.002};
     t.radius_m = 0.27;
-    t.moving = t.has_walked = true;
+    t.moving = t.is_pedestrian = true;
   }
   return tracks;
 }

@@ -104,7 +104,7 @@ RunTables::RunTables(const std::filesystem::path& folder)
              "t_s,x_m,y_m,heading_rad,v_mps,w_radps,est_x_m,est_y_m,est_heading_rad,wanted_v_mps,permitted_v_mps,"
              "left_radps,right_radps,reasons"),
       movers_((folder / "movers.csv").string(), "t_s,id,x_m,y_m,vx_mps,vy_mps,forced"),
-      tracks_((folder / "tracks.csv").string(), "t_s,id,x_m,y_m,vx_mps,vy_mps,moving,std_m") {}
+      tracks_((folder / "tracks.csv").string(), "t_s,id,x_m,y_m,vx_mps,vy_mps,moving,std_m,radius_m,pedestrian") {}
 
 void RunTables::add(const RunSample& sample) {
   add_robot(sample);
@@ -150,7 +150,8 @@ void RunTables::add_tracks(const RunSample& sample) {
     tracks_.seconds(sample.scanned).count(track.id);
     add_vector(tracks_, track.position_in_map);
     add_vector(tracks_, track.velocity_in_map);
-    tracks_.count(track.moving ? 1 : 0).number(std::sqrt(track.covariance.pp)).end_row();
+    tracks_.count(track.moving ? 1 : 0).number(std::sqrt(track.covariance.pp)).number(track.radius_m);
+    tracks_.count(track.is_pedestrian ? 1 : 0).end_row();
   }
 }
 

@@ -148,7 +148,7 @@ Ordered tracks_of(std::span<const Track> tracks) {
   Ordered out = Ordered::array();
   for (const Track& k : tracks)
     out.push_back({k.id, mm(k.position_in_map.x), mm(k.position_in_map.y), mm(k.radius_m), k.moving ? 1 : 0,
-                   mm(k.velocity_in_map.x), mm(k.velocity_in_map.y), k.has_walked ? 1 : 0});
+                   mm(k.velocity_in_map.x), mm(k.velocity_in_map.y), k.is_pedestrian ? 1 : 0});
   return out;
 }
 

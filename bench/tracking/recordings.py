@@ -47,6 +47,12 @@ def tracks_of(out):
     return scans
 
 
+def pedestrians_of(out):
+    """The names of tracks taken for pedestrians, scan after scan."""
+    with open(out / "tracks.csv") as file:
+        return [int(row["id"]) for row in csv.DictReader(file) if row["pedestrian"] == "1"]
+
+
 def at(scans, t):
     near = [s for s in scans if abs(s - t) < 0.03]
     return scans[min(near, key=lambda s: abs(s - t))] if near else []
@@ -70,18 +76,21 @@ def backwards(options, file):
 
 
 def nobody(options):
-    print("| where nobody is | false movers | a minute |\n|---|---|---|")
+    print("| where nobody is | false movers | a minute | taken for pedestrians a minute | at a time |\n|---|---|---|---|---|")
     for side, turned in (("left", False), ("right", False), ("left", True), ("right", True)):
         jobs = [(k, f"{side}{turned:d}{k}") for k in range(options.headings)]
         file = f"static/no_people_{side}.scan.txt.gz"
         file = backwards(options, file) if turned else file
         outs = all_of(lambda job: relive(options, job[1], file, mount=(0, 0, TURN_RAD * job[0])), jobs, options.jobs)
-        false, minutes = 0, 0.0
+        false, minutes, pedestrians, at_a_time = 0, 0.0, 0, []
         for out in outs:
             scans = tracks_of(out)
+            names = pedestrians_of(out)
+            pedestrians += len(set(names))
+            at_a_time.append(len(names) / len(scans))
             false += len({name for tracks in scans.values() for name, _, moves in tracks if moves})
             minutes += (max(scans) - min(scans)) / 60
-        print(f"| no_people_{side}{', run backwards' if turned else ''}, {options.headings} headings | {false} | {false / minutes:.2f} |", flush=True)
+        print(f"| no_people_{side}{', run backwards' if turned else ''}, {options.headings} headings | {false} | {false / minutes:.2f} | {pedestrians / minutes:.0f} | {statistics.mean(at_a_time):.1f} |", flush=True)
 
 
 def dense_labels(options, name, farthest_m):

@@ -154,7 +154,7 @@ float GoalRollouts::conflict_price() const noexcept {
   float walked_mps = 0.0F;
   for (const MoverBelief& b : memory().beliefs()) {
     const float dx = b.x - decision_.start.x, dy = b.y - decision_.start.y;
-    const bool walks = b.has_walked && !b.has_stood();
+    const bool walks = b.is_pedestrian && !b.has_stood();
     if (walks && dx * dx + dy * dy < price::kAboutM * price::kAboutM) walked_mps += b.usual_mps;
   }
   walked_mps += 0.5F * static_cast<float>(memory().hidden().size()) / kFutures * memory().turning().usual_mps;

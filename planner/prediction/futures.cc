@@ -29,7 +29,7 @@ void Futures::draw(std::span<const MoverBelief> seen, std::span<const Pedestrian
     }
     newcomer_[movers_] = belief.newcomer;
     stood_[movers_] = belief.has_stood();
-    surface_[movers_] = !belief.has_walked || stood_[movers_];
+    surface_[movers_] = !belief.is_pedestrian || stood_[movers_];
     if (belief.stands())
       standing_[standing_count_++] = {belief.x, belief.y, belief.radius_m + jaywalk::price::kFromStanding_m};
     radius_[movers_++] = belief.radius_m;

@@ -42,13 +42,13 @@ struct MoverBelief {
   float late_s = 0.0F;       ///< since that sight
   float radius_m = 0.0F;
   float usual_mps = 0.0F;  ///< its own when it walks, or that of others
-  bool has_walked = false;
+  bool is_pedestrian = false;
   bool newcomer = false;                      ///< neither seen to walk nor to have legs: furniture, most likely
   float stood_s = 0.0F;                       ///< in one place
   static constexpr float kLongPauseS = 4.0F;  ///< one that has stood for longer may stand for any time
   [[nodiscard]] bool has_stood() const { return stood_s > kLongPauseS; }
   /// A pedestrian that has stood for long: a body to go round.
-  [[nodiscard]] bool stands() const { return has_walked && has_stood(); }
+  [[nodiscard]] bool stands() const { return is_pedestrian && has_stood(); }
 };
 
 /// A drawn speed below half the usual one, or this if that is less, is no walking speed: it walks at its usual one.
@@ -120,13 +120,13 @@ struct PedestrianSample {
     w.until_stop_s = w.draws.waiting_s(turning.stops_hz());
     w.face(cell::angle_of(vx, vy));
     const float speed = std::sqrt(vx * vx + vy * vy), half = 0.5F * b.usual_mps;
-    w.walks = speed > kStandsMps && (b.has_walked || speed > 2.0F * b.velocity_std);
+    w.walks = speed > kStandsMps && (b.is_pedestrian || speed > 2.0F * b.velocity_std);
     w.speed = speed > (half < kLeastWalkMps ? half : kLeastWalkMps) ? speed : b.usual_mps;
     if (w.walks) return w;
     w.face(cell::kPiF * w.draws.either_way());
     (void)w.look_for_way(guide);
-    const bool for_long = !b.has_walked || b.has_stood();
-    const float least = b.has_walked ? kStandsForS : 1.0F / turning.walks_off_hz();
+    const bool for_long = !b.is_pedestrian || b.has_stood();
+    const float least = b.is_pedestrian ? kStandsForS : 1.0F / turning.walks_off_hz();
     const float expected = b.stood_s > least ? b.stood_s : least;
     w.wait_s = for_long ? w.draws.waiting_s(1.0F / expected) : kPausesForS * w.draws.uniform();
     return w;

@@ -75,11 +75,11 @@ void MoverHistory::note(History& m, const Track& track) noexcept {
 
 /// Once of each that was seen to stand first: has it walked off by now, or was it furniture?
 void MoverHistory::count_newcomer(History& m, double known_s, double enough_s) noexcept {
-  if (m.counted || !is_as_wide_as_a_body(m.track) || !(m.has_walked() || known_s >= enough_s)) return;
+  if (m.counted || !is_as_wide_as_a_body(m.track) || !(m.is_pedestrian() || known_s >= enough_s)) return;
   m.counted = true;
-  if (m.has_walked() && known_s < kWalksFromTheStartS) return;
+  if (m.is_pedestrian() && known_s < kWalksFromTheStartS) return;
   turning_.newcomers += 1.0F;
-  turning_.walked_off += m.has_walked() ? 1.0F : 0.0F;
+  turning_.walked_off += m.is_pedestrian() ? 1.0F : 0.0F;
 }
 
 /// Every half a second: did a pedestrian that walked in the open turn, or stop?
@@ -119,13 +119,13 @@ void MoverHistory::forget_gone(const Seen& seen) noexcept {
     History& m = histories_[k];
     if (m.here) continue;
     count_newcomer(m, to_seconds(m.track.stamp - m.first_seen), kSeenForS);
-    if (m.has_walked() && m.usual_mps > 0.0) occluded_.add(belief_of(m, seen.now), turning_, seen.guide);
+    if (m.is_pedestrian() && m.usual_mps > 0.0) occluded_.add(belief_of(m, seen.now), turning_, seen.guide);
     histories_.swap_remove(k);
   }
 }
 
 bool MoverHistory::may_walk(const History& m, const Seen& seen) const noexcept {
-  if (m.has_walked()) return true;
+  if (m.is_pedestrian()) return true;
   const Vec2 place = m.track.position_in_map;
   return to_seconds(seen.now - m.first_seen) < kUnknownForS && is_as_wide_as_a_body(m.track) &&
          distance(place, seen.map_from_robot.position()) < kUnknownWithinM &&
@@ -147,8 +147,8 @@ MoverBelief MoverHistory::belief_of(const History& m, Time now) const noexcept {
           .late_s = f(std::clamp(to_seconds(now - t.stamp), 0.0, 1.0)),
           .radius_m = f(std::clamp(t.radius_m, kLeastRadiusM, kWidestBodyM)),
           .usual_mps = m.usual_mps > 0.1 ? f(m.usual_mps) : turning_.usual_mps,
-          .has_walked = m.has_walked(),
-          .newcomer = !m.has_walked(),
+          .is_pedestrian = m.is_pedestrian(),
+          .newcomer = !m.is_pedestrian(),
           .stood_s = t.still_since == kNever ? 0.0F : f(to_seconds(now - t.still_since))};
 }
 
@@ -158,7 +158,7 @@ void MoverHistory::believe(const Seen& seen) noexcept {
   masked_.clear();
   standing_.clear();
   for (const History& m : histories_) {
-    if (m.has_walked()) {
+    if (m.is_pedestrian()) {
       (void)masked_.push_back({m.track.position_in_map, m.track.radius_m});
     }
     if (distance(m.track.position_in_map, robot) < kWithinM && may_walk(m, seen)) {
@@ -197,7 +197,7 @@ void MoverHistory::add_standing(const Seen& seen) noexcept {
          .velocity_std = 0.02F,
          .radius_m = static_cast<float>(std::min(kStandingRadiusM, pedestrian.radius_m)),
          .usual_mps = turning_.usual_mps,
-         .has_walked = true,  // its disc is a body, which the map has the shins of
+         .is_pedestrian = true,  // its disc is a body, which the map has the shins of
          .stood_s = static_cast<float>(std::max(0.0, to_seconds(age(pedestrian.since, seen.now))))});
   }
 }

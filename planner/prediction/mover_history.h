@@ -58,7 +58,7 @@ class MoverHistory {
     Look before{}, last{};
     int looks = 0, rests = 0;
 
-    [[nodiscard]] bool has_walked() const { return track.has_walked || came_out; }
+    [[nodiscard]] bool is_pedestrian() const { return track.is_pedestrian || came_out; }
   };
 
   History& history_of(const Track& track, const Seen& seen) noexcept;

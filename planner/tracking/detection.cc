@@ -94,10 +94,10 @@ End end_at(const ScanPoints& points, const Sweep& sweep, std::size_t end, std::p
 }
 
 void note_ends(const ScanPoints& points, const Sweep& sweep, Detection& detection) {
-  const std::size_t first = detection.segment.first, last = detection.segment.last;
-  detection.beams = {points[first].beam, points[last].beam};
-  detection.low_end = sweep.begins_at(detection.beams.first) ? End::kHidden : end_at(points, sweep, first, -1);
-  detection.high_end = sweep.ends_at(detection.beams.last) ? End::kHidden : end_at(points, sweep, last, 1);
+  detection.beams = {points[detection.segment.first].beam, points[detection.segment.last].beam};
+  const Ends ends = ends_of(detection.segment, points, sweep);
+  detection.low_end = ends.low;
+  detection.high_end = ends.high;
 }
 
 void note_times(const ScanPoints& points, const Sweep& sweep, Detection& detection) {
@@ -167,6 +167,12 @@ bool all_about(CellIndex cell, const Each& each) {
 }
 
 }  // namespace
+
+Ends ends_of(const Segment& segment, const ScanPoints& points, const Sweep& sweep) noexcept {
+  const auto& [first, last] = segment;
+  return {sweep.begins_at(points[first].beam) ? End::kHidden : end_at(points, sweep, first, -1),
+          sweep.ends_at(points[last].beam) ? End::kHidden : end_at(points, sweep, last, 1)};
+}
 
 void find_detections(const ScanPoints& points, const PointsInMap& in_map, const Segments& segments, const Sweep& sweep,
                      Vec2 laser, Detections& out) noexcept {

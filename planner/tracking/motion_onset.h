@@ -39,7 +39,7 @@ enum class MotionOnset : std::uint8_t {
 [[nodiscard]] MotionOnset motion_onset(const Target& target, const Surroundings& around) noexcept;
 
 /// Decides, once a scan, whether a target moves beyond reasonable doubt (Track::moving), whether it stands for good
-/// (Existence::settled) and whether it may be a pedestrian (Existence::maybe_pedestrian). Two thresholds keep it from
+/// (Existence::settled) and whether it was seen to walk (Existence::pedestrian). Two thresholds keep it from
 /// wavering: its onset must be likely in two scans running, or certain in one, and it stays moving until it has been
 /// slow for more than four seconds.
 void judge_motion(Target& target, const Surroundings& around, Time now) noexcept;

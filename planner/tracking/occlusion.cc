@@ -9,11 +9,16 @@ namespace {
 constexpr double kUnseenForS = 2.0;  // an occluded target stays a track for so long, or for as long as it was seen
 constexpr double kSpeedStd = 0.1;    // m/s an axis, of one that comes out where it should; by trial, seeds 1 to 6
 
+/// How far a target that stands may be from where it was known to stand before, m: what stands farther off is another
+/// thing, a piece of wall beside a leg say.
+constexpr double kSameThingM = 0.15;
+
 /// Whether it is one of the targets, standing or about to go on.
 bool is_tracked(const StandingPedestrian& pedestrian, const Targets& targets) {
   return std::any_of(targets.begin(), targets.end(), [&](const Target& target) {
-    return target.existence.maybe_pedestrian &&
-           distance(target.estimate.as_seen.position_in_map, pedestrian.position_in_map) < pedestrian.radius_m;
+    const double within_m = target.estimate.track.moving ? pedestrian.radius_m : kSameThingM;
+    return target.confirmed() &&
+           distance(target.estimate.as_seen.position_in_map, pedestrian.position_in_map) < within_m;
   });
 }
 
@@ -47,13 +52,17 @@ Time last_seen(const StandingPedestrian& pedestrian, const Targets& targets, Tim
   return std::min(last, now);  // a clock may be set back
 }
 
-/// Since when this place has been known for one that a pedestrian stands at.
-Time stands_since(Vec2 place, double radius_m, const StandingPedestrians& before, Time now) {
+/// The target as one that stands; it takes over what was known of the thing before it was followed.
+StandingPedestrian follow(Target& target, const StandingCandidates& before, Time now) {
+  const Track& seen = target.estimate.as_seen;
+  PedestrianBelief& belief = target.existence.pedestrian;
   Time since = now;
-  for (const StandingPedestrian& pedestrian : before) {
-    if (distance(pedestrian.position_in_map, place) < radius_m) since = std::min(since, pedestrian.since);
+  for (const StandingPedestrian& one : before) {
+    if (distance(one.position_in_map, seen.position_in_map) >= kSameThingM) continue;
+    since = std::min(since, one.since);
+    belief.inherit(one.belief);
   }
-  return since;
+  return {seen.position_in_map, target.estimate.track.radius_m, seen.last_seen, since, belief, true};
 }
 
 }  // namespace
@@ -114,21 +123,24 @@ bool OccludedTracks::reidentify(Target& newcomer, Time now) noexcept {
   return true;
 }
 
-void update_standing(const Targets& targets, const EvidenceMap& still, const LineOfSight& sight, Time now,
-                     StandingPedestrians& standing) noexcept {
-  const StandingPedestrians before = standing;
-  standing.clear();
-  for (const Target& target : targets) {
-    if (!target.existence.maybe_pedestrian || target.estimate.track.moving) continue;
-    const Track& seen = target.estimate.as_seen;
-    const Time since = stands_since(seen.position_in_map, target.estimate.track.radius_m, before, now);
-    (void)standing.push_back(
-        {seen.position_in_map, target.estimate.track.radius_m, seen.last_seen, since});  // as many as bodies
+void update_standing(Targets& targets, const EvidenceMap& still, const LineOfSight& sight, Time now,
+                     StandingCandidates& standing) noexcept {
+  const StandingCandidates before = standing;
+  StandingCandidates all;
+  for (Target& target : targets) {
+    if (target.confirmed() && !target.estimate.track.moving) (void)all.push_back(follow(target, before, now));
   }
-  for (StandingPedestrian pedestrian : before) {
-    pedestrian.last_seen = last_seen(pedestrian, targets, now);
-    const bool stays = something_stands(pedestrian, still) || may_be_hidden(pedestrian, sight, now);
-    if (stays && !is_tracked(pedestrian, targets) && !standing.push_back(pedestrian)) return;
+  for (StandingPedestrian one : before) {
+    one.last_seen = last_seen(one, targets, now);
+    one.followed = false;
+    const bool stays = something_stands(one, still) || may_be_hidden(one, sight, now);
+    if (stays && !is_tracked(one, targets)) (void)all.push_back(one);
+  }
+  standing.clear();
+  for (const bool pedestrians : {true, false}) {
+    for (const StandingPedestrian& one : all) {
+      if (one.belief.may_be_pedestrian() && one.belief.is_pedestrian() == pedestrians) (void)standing.push_back(one);
+    }
   }
 }
 

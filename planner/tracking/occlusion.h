@@ -51,22 +51,27 @@ class OccludedTracks {
   FixedVector<Occluded, kMaxOccludedTracks> tracks_;
 };
 
-/// A pedestrian that stands, for all that is known: the disc is its body, though a laser at the height of shins sees
-/// but those.
+/// What stands and is a pedestrian, or may be one: the disc is its body, though a laser at the height of shins sees but
+/// those.
 struct StandingPedestrian {
   Vec2 position_in_map;
   double radius_m = 0.0;
-  Time last_seen = kNever;  ///< it, or something that stood in its place
-  Time since = kNever;      ///< known to stand there
+  Time last_seen = kNever;    ///< it, or something that stood in its place
+  Time since = kNever;        ///< known to stand there
+  PedestrianBelief belief{};  ///< that it is one
+  bool followed = false;      ///< by a target, whose belief this copies
 };
 
 using StandingPedestrians = FixedVector<StandingPedestrian, kMaxTracks>;
 
-/// A target that may be a pedestrian (Existence::maybe_pedestrian) and does not move stands where it was seen last. A
-/// pedestrian noted before that is no target any more stands there for as long as the map has something as near to its
-/// middle as legs are, or a target stands so near, however little of it is seen; or while it may be hidden there, for
-/// kRememberedS. Targets come first; of the others as many as there is room for, the latest first.
-void update_standing(const Targets& targets, const EvidenceMap& still, const LineOfSight& sight, Time now,
-                     StandingPedestrians& standing) noexcept;
+/// Those that are pedestrians first; beyond so many, what is none yet is forgotten.
+using StandingCandidates = FixedVector<StandingPedestrian, 3 * kMaxTracks>;
+
+/// A confirmed target that does not move stands where it was seen last. What is no target any more (the map has it)
+/// stands there for as long as the map has something as near to its middle as legs are, or a target stands so near,
+/// however little of it is seen; or while it may be hidden there, for kRememberedS. A target takes over what was
+/// believed of what stood in its place. What is hardly a pedestrian is dropped.
+void update_standing(Targets& targets, const EvidenceMap& still, const LineOfSight& sight, Time now,
+                     StandingCandidates& standing) noexcept;
 
 }  // namespace jaywalk

@@ -93,8 +93,8 @@ void Scene::update(const LaserScan& scan, const Pose2& map_from_robot, const Twi
                    const Targets& targets) noexcept {
   self_mask_.learn(scan, map_from_robot);
   projection_.project(scan, robot_from_laser_, twist, points);
-  const Sweep sweep = sweep_of(scan);
-  drop_own_points(scan, sweep);
+  sweep = sweep_of(scan);
+  drop_own_points(scan);
   project_empty_beams(scan, twist);
   begin_at_a_jump(sweep, points);
   map_from_laser = map_from_robot * robot_from_laser_;
@@ -103,9 +103,9 @@ void Scene::update(const LaserScan& scan, const Pose2& map_from_robot, const Twi
     in_map.position[k] = to_map * points[k].in_robot;
     in_map.ground[k] = ground_at(still, in_map.position[k], points[k].range_m);
   }
-  cut_at_jumps(points, sweep, segments_);
-  split_detections(targets, in_map, segments_);
-  find_detections(points, in_map, segments_, sweep, map_from_laser.position(), detections);
+  cut_at_jumps(points, sweep, segments);
+  split_detections(targets, in_map, segments);
+  find_detections(points, in_map, segments, sweep, map_from_laser.position(), detections);
 }
 
 bool Scene::ends_on_robot(const LaserScan& scan, std::uint32_t beam) const noexcept {
@@ -117,7 +117,7 @@ bool Scene::ends_on_robot(const LaserScan& scan, std::uint32_t beam) const noexc
 }
 
 /// A target half behind a mast is told so.
-void Scene::drop_own_points(const LaserScan& scan, const Sweep& sweep) noexcept {
+void Scene::drop_own_points(const LaserScan& scan) noexcept {
   std::size_t kept = 0;
   for (ScanPoint point : points) {
     if (ends_on_robot(scan, point.beam)) continue;

@@ -55,17 +55,18 @@ class Scene {
   ScanPoints points;
   ScanPoints empty;    ///< ends of beams without a return, cut at kObservedM or at kSeesAll of the reach
   PointsInMap in_map;  ///< of as many points
+  Segments segments;
+  Sweep sweep;
   Detections detections;
 
  private:
-  void drop_own_points(const LaserScan& scan, const Sweep& sweep) noexcept;
+  void drop_own_points(const LaserScan& scan) noexcept;
   void project_empty_beams(const LaserScan& scan, const Twist2& twist) noexcept;
   [[nodiscard]] bool ends_on_robot(const LaserScan& scan, std::uint32_t beam) const noexcept;
 
   Pose2 robot_from_laser_;
   SelfMask self_mask_;
   ScanProjection projection_;
-  Segments segments_;
 };
 
 // What a scan's points may become in the map: walls, but for those of bodies.

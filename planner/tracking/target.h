@@ -7,6 +7,7 @@
 #include "planner/scan/scan_points.h"
 #include "planner/tracking/detection.h"
 #include "planner/tracking/imm_filter.h"
+#include "planner/tracking/pedestrian_belief.h"
 #include "planner/tracking/straight_fit.h"
 #include "planner/tracking/track.h"
 
@@ -85,6 +86,7 @@ struct Appearance {
 struct OnsetHistory {
   PositionHistory positions;
   double free_share = 0.0;   ///< running mean: share of the detections on ground that was free before
+  double came_share = 0.0;   ///< running mean: share of looks that went through where it is, a moment before
   Time anchored = kNever;    ///< since when it is watched for going away from the anchor
   Vec2 anchor_in_map;        ///< where it was then
   Outline anchor_outline;    ///< points of it that were seen there, in the map
@@ -108,7 +110,7 @@ struct Existence {
   std::uint32_t misses = 0;       ///< scans in a row that did not see it, from the first of its finder's on
   std::size_t finder = 0;         ///< the scanner that saw it last
   bool scan_counts = true;        ///< the newest scan is a hit or a miss of it; that of another scanner may be neither
-  bool maybe_pedestrian = false;  ///< it moved, or stood on two legs: it may be a pedestrian from then on
+  PedestrianBelief pedestrian{};  ///< that it is one
   bool settled = false;           ///< stands for good: its points may become walls
 
   /// Seen often enough to be published.

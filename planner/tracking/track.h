@@ -19,16 +19,16 @@ struct AxisCovariance {
 
 /// Something that may move, as the controller believes it to be at `stamp`.
 struct Track {
-  std::uint32_t id = 0;       ///< from 1, never reused in a run
-  Time stamp = kNever;        ///< when position and velocity hold
-  Vec2 position_in_map;       ///< m, of the body's centre
-  Vec2 velocity_in_map;       ///< m/s
-  AxisCovariance covariance;  ///< of a published track honest: its middle lies within, whatever its radius
-  double radius_m = 0.0;      ///< of the body
-  bool moving = false;        ///< moving beyond reasonable doubt
-  bool has_walked = false;    ///< it moved since it is published, or a pedestrian was known to stand where it is
-  Time still_since = kNever;  ///< since when it has stayed within kStandsWithinM; kNever: not published yet
-  std::uint32_t hits = 0;     ///< scans that saw it
+  std::uint32_t id = 0;        ///< from 1, never reused in a run
+  Time stamp = kNever;         ///< when position and velocity hold
+  Vec2 position_in_map;        ///< m, of the body's centre
+  Vec2 velocity_in_map;        ///< m/s
+  AxisCovariance covariance;   ///< of a published track honest: its middle lies within, whatever its radius
+  double radius_m = 0.0;       ///< of the body
+  bool moving = false;         ///< moving beyond reasonable doubt
+  bool is_pedestrian = false;  ///< more likely than not (PedestrianBelief), or one is known to stand where it is
+  Time still_since = kNever;   ///< since when it has stayed within kStandsWithinM; kNever: not published yet
+  std::uint32_t hits = 0;      ///< scans that saw it
   Time last_seen = kNever;
   /// Normalised innovation squared of the last detection: how far it was from where it was expected, over the variance.
   /// Chi-squared with two degrees of freedom, 2 on average, where the covariance is honest.

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "hal/types/trig.h"
 #include "planner/mapping/map_entry.h"
 #include "planner/scan/scan_points.h"
 #include "planner/tracking/detection.h"
@@ -15,6 +16,8 @@
 
 namespace jaywalk {
 namespace {
+constexpr double kNewView = 0.05;  // of an independent view: fewer are not worth the time
+
 void rename(Detections& detections, std::uint32_t from, std::uint32_t to) {
   for (Detection& c : detections) {
     if (c.track_id == from) c.track_id = to;
@@ -42,11 +45,12 @@ struct Tracker::State {
   void forget_targets() noexcept;
   void associate_and_correct() noexcept;
   void judge(const LineOfSight& sight, const Twist2& twist) noexcept;
+  void look_at(Vec2 place, PedestrianBelief& belief) noexcept;
   void drop_unseen(const LineOfSight& sight) noexcept;
   void leave_hidden(const Target& target) noexcept;
   void birth() noexcept;
   void enter_still() noexcept;
-  void note_history(Estimate& estimate) const noexcept;
+  void note_history(Target& target) const noexcept;
   void publish() noexcept;
 
   std::vector<Pose2> mounts;  ///< robot_from_laser, of each scanner
@@ -75,7 +79,8 @@ struct Tracker::State {
   [[nodiscard]] Scene& scene() noexcept { return scenes[scanner]; }
 
   FixedVector<Track, kMaxTracks> tracks, moving;
-  StandingPedestrians standing;
+  StandingCandidates candidates;
+  StandingPedestrians standing;  ///< those of them that are pedestrians
 };
 
 void Tracker::State::forget_targets() noexcept {
@@ -123,17 +128,30 @@ void Tracker::State::judge(const LineOfSight& sight, const Twist2& twist) noexce
   for (Target& target : targets) {
     if (unreliable && !target.existence.given) forget_walk(target, map_from_first, now);
     if (target.existence.scan_counts) judge_motion(target, around, now);
+    if (target.confirmed() && target.existence.misses == 0)
+      look_at(target.estimate.as_seen.position_in_map, target.existence.pedestrian);
+  }
+  for (StandingPedestrian& one : candidates) {
+    if (!one.followed) look_at(one.position_in_map, one.belief);
   }
 }
 
-/// A track that moves comes out again; one that had stopped is published as a standing pedestrian, for as long as
-/// update_standing() has it stand.
+void Tracker::State::look_at(Vec2 place, PedestrianBelief& belief) noexcept {
+  const Scene& scene = this->scene();
+  const Vec2 view = scene.map_from_laser.position() - place;
+  const double bearing_rad = atan2(view.y, view.x);
+  if (belief.new_views(bearing_rad, now) < kNewView) return;
+  const auto legs = two_legs_at(place, scene.points, scene.in_map, scene.segments, scene.sweep);
+  if (legs) belief.look(*legs, bearing_rad, now);
+}
+
+/// A track that moves comes out again; one that had stopped stands, for as long as update_standing() has it do so.
 void Tracker::State::leave_hidden(const Target& target) noexcept {
   const Track& seen = target.estimate.as_seen;
   hidden.remember(target);
   if (norm(seen.velocity_in_map) < kStoppedMps)
-    (void)standing.push_back(
-        {seen.position_in_map, target.estimate.track.radius_m, seen.last_seen});  // or has as many already
+    (void)candidates.push_back({seen.position_in_map, target.estimate.track.radius_m, seen.last_seen, kNever,
+                                target.existence.pedestrian});  // or has as many already
 }
 
 void Tracker::State::drop_unseen(const LineOfSight& sight) noexcept {
@@ -185,12 +203,14 @@ void Tracker::State::enter_still() noexcept {
 }
 
 /// What motion is told of a track's past. A pedestrian known to stand where a track is found is that track.
-void Tracker::State::note_history(Estimate& estimate) const noexcept {
+void Tracker::State::note_history(Target& target) const noexcept {
+  Estimate& estimate = target.estimate;
   Track& track = estimate.track;
   const auto is_here = [&](const StandingPedestrian& p) {
     return distance(p.position_in_map, track.position_in_map) < kSamePedestrianM;
   };
-  track.has_walked = track.has_walked || track.moving || std::any_of(standing.begin(), standing.end(), is_here);
+  track.is_pedestrian = track.moving || target.existence.pedestrian.is_pedestrian() ||
+                        std::any_of(standing.begin(), standing.end(), is_here);
   if (track.still_since != kNever && distance(track.position_in_map, estimate.still_at) <= kStandsWithinM) return;
   estimate.still_at = track.position_in_map;
   track.still_since = told;
@@ -199,9 +219,13 @@ void Tracker::State::note_history(Estimate& estimate) const noexcept {
 void Tracker::State::publish() noexcept {
   tracks.clear();
   moving.clear();
+  standing.clear();
+  for (const StandingPedestrian& one : candidates) {
+    if (one.belief.is_pedestrian()) (void)standing.push_back(one);
+  }
   for (Target& target : targets) {
     if (!target.confirmed()) continue;
-    note_history(target.estimate);
+    note_history(target);
     Track track = target.estimate.track;
     track.covariance.pp += target.estimate.off_std_m * target.estimate.off_std_m;
     (void)tracks.push_back(track);  // as many places as bodies
@@ -225,7 +249,7 @@ void Tracker::update(const LaserScan& scan, const Pose2& map_from_robot, const T
   s.drop_unseen(sight);
   s.birth();
   s.enter_still();
-  update_standing(s.targets, s.still, sight, s.now, s.standing);
+  update_standing(s.targets, s.still, sight, s.now, s.candidates);
   s.publish();
   s.past.keep(scan, map_from_robot, s.mounts[s.scanner], twist);
 }

@@ -26,7 +26,7 @@ MoverBelief walking(std::uint32_t id, float x, float y, float vx, float vy) {
           .velocity_std = 0.02F,
           .radius_m = 0.27F,
           .usual_mps = 0.5F,
-          .has_walked = true};
+          .is_pedestrian = true};
 }
 
 /// A step of Seen with one track.
@@ -38,7 +38,7 @@ Track track_at(std::uint32_t id, Vec2 place, Vec2 velocity, Time stamp) {
           .covariance = {1e-4, 1e-5, 1e-3},
           .radius_m = 0.27,
           .moving = norm(velocity) > 0.15,
-          .has_walked = norm(velocity) > 0.0,
+          .is_pedestrian = norm(velocity) > 0.0,
           .still_since = stamp,
           .hits = 20,
           .last_seen = stamp};
@@ -153,7 +153,7 @@ TEST_CASE("a pedestrian that has stood for more than four seconds stands, known 
     MoverHistory memory;
     const Time since = now - duration_from_seconds(stood_s);
     Track track = track_at(3, {1.0, 2.0}, {}, now);
-    track.still_since = since, track.has_walked = true;
+    track.still_since = since, track.is_pedestrian = true;
     const StandingPedestrian legs{{1.0, 2.0}, 0.25, now, since};
     memory.update({.now = now,
                    .stamp = now,

@@ -64,7 +64,7 @@ TEST_CASE(
   Track walker;
   walker.id = 1;
   walker.position_in_map = {1.0, 0.0};
-  walker.moving = walker.has_walked = true;
+  walker.moving = walker.is_pedestrian = true;
   moment.tracks = {walker};
   moment.go_to({4.0, 0.0});
   moment.plan.status = PlanStatus::kOk;

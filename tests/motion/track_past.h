@@ -21,18 +21,18 @@ class TrackPast {
                .last_seen = now});
   }
   [[nodiscard]] Track of(Track track) {
-    has_walked_ = has_walked_ || track.moving;
+    is_pedestrian_ = is_pedestrian_ || track.moving;
     if (since_ == kNever || distance(at_, track.position_in_map) > kStandsWithinM) {
       at_ = track.position_in_map;
       since_ = track.stamp;
     }
-    track.has_walked = has_walked_;
+    track.is_pedestrian = is_pedestrian_;
     track.still_since = since_;
     return track;
   }
 
  private:
-  bool has_walked_ = false;
+  bool is_pedestrian_ = false;
   Vec2 at_;
   Time since_ = kNever;
 };

@@ -172,8 +172,8 @@ TEST_CASE("who has stood for long is a surface as wide as a person, though the m
   Trajectory held;
   held.commands.fill({0.3F, 0.0F});
   const auto cost_beside = [&](float left_m, float stood_s) {
-    const MoverBelief him{
-        .id = 1, .x = 1.0F, .y = left_m, .radius_m = 0.25F, .usual_mps = 0.6F, .has_walked = true, .stood_s = stood_s};
+    MoverBelief him{.id = 1, .x = 1.0F, .y = left_m, .radius_m = 0.25F, .usual_mps = 0.6F};
+    him.is_pedestrian = true, him.stood_s = stood_s;
     const auto futures = std::make_unique<Futures>();
     futures->draw({&him, 1}, {}, {}, guide, 1);
     return trajectory_cost({body, guide, *futures, kNothing, RobotState{}, {4.0F, 0.0F}, 0.0F, {}, 0.24F}, held, 1e9F);
@@ -226,14 +226,8 @@ TEST_CASE("beside who stands the way costs, and not the time: waiting there gain
   const Guide& guide = ground.towards({0.0, 0.0}, {4.0, 0.0});
   const RobotBody body = body_of(0.6F);
   const auto nearness_at = [&](float speed, float walks_mps) {
-    const MoverBelief beside{.id = 1,
-                             .x = 0.3F,
-                             .y = 0.8F,
-                             .vx = walks_mps,
-                             .radius_m = 0.25F,
-                             .usual_mps = 0.4F,
-                             .has_walked = true,
-                             .stood_s = walks_mps > 0.0F ? 0.0F : 1000.0F};
+    MoverBelief beside{.id = 1, .x = 0.3F, .y = 0.8F, .vx = walks_mps, .radius_m = 0.25F, .usual_mps = 0.4F};
+    beside.is_pedestrian = true, beside.stood_s = walks_mps > 0.0F ? 0.0F : 1000.0F;
     const auto futures = std::make_unique<Futures>();
     futures->draw({&beside, 1}, {}, {}, guide, 1);
     Trajectory held;
@@ -250,7 +244,7 @@ TEST_CASE("in a walker's way already, to drive into the walker costs more than t
   test::Guided ground;
   const Guide& guide = ground.towards({0.0, 0.0}, {4.0, 0.0});
   const RobotBody body = body_of(0.6F);
-  const MoverBelief comes{.id = 1, .x = 1.0F, .vx = -0.4F, .radius_m = 0.25F, .usual_mps = 0.4F, .has_walked = true};
+  const MoverBelief comes{.id = 1, .x = 1.0F, .vx = -0.4F, .radius_m = 0.25F, .usual_mps = 0.4F, .is_pedestrian = true};
   const auto futures = std::make_unique<Futures>();
   futures->draw({&comes, 1}, {}, {}, guide, 1);
   const auto conflict_at = [&](float speed) {
@@ -268,7 +262,7 @@ namespace {
 struct Oncoming {
   explicit Oncoming(float from_m) {
     const MoverBelief comes{
-        .id = 1, .x = from_m, .vx = -1.2F, .radius_m = 0.25F, .usual_mps = 1.2F, .has_walked = true};
+        .id = 1, .x = from_m, .vx = -1.2F, .radius_m = 0.25F, .usual_mps = 1.2F, .is_pedestrian = true};
     futures->draw({&comes, 1}, {}, {}, guide, 1);
   }
   [[nodiscard]] Cost cost_of(const Trajectory& trajectory, std::array<RobotState, kSteps>& driven) const {

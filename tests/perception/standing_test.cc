@@ -19,7 +19,8 @@ Room with_legs(Vec2 place) { return with({{{place.x, place.y + 0.1}, 0.06}, {{pl
 Targets somebody_at(Vec2 place, bool moves = false) {
   Targets targets;
   Target target = born_at(place, 0.05, 0.25, time_from_seconds(0.0), 1);
-  target.existence.maybe_pedestrian = true;
+  target.existence.pedestrian.walks();
+  target.estimate.track.hits = 3;
   target.estimate.track.moving = moves;
   (void)targets.push_back(target);
   return targets;
@@ -33,7 +34,7 @@ EvidenceMap map_with(double beside_m) {
 }
 
 /// Of a laser whose beams pass over every place.
-void note(const Targets& targets, const EvidenceMap& still, StandingPedestrians& standing) {
+void note(Targets targets, const EvidenceMap& still, StandingCandidates& standing) {
   const LaserScan empty = scan_of(rectangle(12.0, 10.0), {}, 1);
   update_standing(targets, still, LineOfSight(empty, {}, {}, {}), empty.stamp, standing);
 }
@@ -115,7 +116,7 @@ TEST_CASE("one post, and two farther apart than legs, are nobody") {
 }
 
 TEST_CASE("who walked and is no target any more stands while the map has something that near to his middle") {
-  StandingPedestrians standing;
+  StandingCandidates standing;
   note(somebody_at(kPlace), map_with(kWallM), standing);
   REQUIRE(standing.size() == 1);
   note({}, map_with(kShinM), standing);
@@ -126,7 +127,7 @@ TEST_CASE("who walked and is no target any more stands while the map has somethi
 }
 
 TEST_CASE("who is followed again is not there twice, and who goes on stands no more") {
-  StandingPedestrians standing;
+  StandingCandidates standing;
   note(somebody_at(kPlace), map_with(kShinM), standing);
   note(somebody_at(kPlace + Vec2{0.1, 0.0}), map_with(kShinM), standing);
   REQUIRE(standing.size() == 1);
@@ -136,10 +137,10 @@ TEST_CASE("who is followed again is not there twice, and who goes on stands no m
 }
 
 TEST_CASE("who moves, and what is nobody, does not stand") {
-  StandingPedestrians standing;
+  StandingCandidates standing;
   note(somebody_at(kPlace, true), map_with(kShinM), standing);
   Targets furniture = somebody_at(kPlace);
-  furniture[0].existence.maybe_pedestrian = false;
+  furniture[0].existence.pedestrian = {};
   note(furniture, map_with(kShinM), standing);
   CHECK(standing.empty());
 }
@@ -147,16 +148,18 @@ TEST_CASE("who moves, and what is nobody, does not stand") {
 TEST_CASE("he is where he was seen last, wherever his track has gone meanwhile") {
   Targets targets = somebody_at(kPlace);
   targets[0].estimate.track.position_in_map = kPlace + Vec2{0.5, 0.0};
-  StandingPedestrians standing;
+  StandingCandidates standing;
   note(targets, map_with(kShinM), standing);
   REQUIRE(standing.size() == 1);
   CHECK(standing[0].position_in_map == kPlace);
 }
 
 TEST_CASE("when there is no room left those who are followed have it") {
-  StandingPedestrians standing;
+  StandingCandidates standing;
   const EvidenceMap map = map_with(kShinM);
-  for (std::size_t k = 0; k < kMaxTracks; ++k) (void)standing.push_back({kPlace, 0.25});
+  const PedestrianBelief walked = somebody_at(kPlace)[0].existence.pedestrian;
+  for (std::size_t k = 0; k < standing.capacity(); ++k)
+    (void)standing.push_back({kPlace, 0.25, kNever, kNever, walked});
   note(somebody_at(kPlace + Vec2{5.0, 0.0}), map, standing);
   CHECK(standing.full());
   CHECK(standing[0].position_in_map == kPlace + Vec2{5.0, 0.0});

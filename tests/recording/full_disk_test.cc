@@ -95,7 +95,7 @@ TEST_CASE(
   const std::string rows = scratch.read("robot.csv");
   CHECK(rows.size() <= 4'000);
   CHECK(rows.back() == '\n');
-  CHECK(scratch.read("tracks.csv").find("std_m\n") != std::string::npos);
+  CHECK(scratch.read("tracks.csv").find("pedestrian\n") != std::string::npos);
 }
 
 TEST_CASE("a run holds room for its summary until its end, and refuses to begin where there is none") {

@@ -86,8 +86,8 @@ TEST_CASE("a run leaves its tables with the columns that others rely on") {
   CHECK(movers[51] == "1.000000,4,1.000000,2.000000,0.000000,-0.400000,1");
   const auto tracks = lines_of(scratch.read("out/tracks.csv"));
   REQUIRE(tracks.size() == 22);  // 21 scans, one row each
-  CHECK(tracks[0] == "t_s,id,x_m,y_m,vx_mps,vy_mps,moving,std_m");
-  CHECK(tracks[2] == "0.100000,9,1.000000,0.500000,0.000000,0.000000,1,0.250000");
+  CHECK(tracks[0] == "t_s,id,x_m,y_m,vx_mps,vy_mps,moving,std_m,radius_m,pedestrian");
+  CHECK(tracks[2] == "0.100000,9,1.000000,0.500000,0.000000,0.000000,1,0.250000,0.000000,0");
 }
 
 TEST_CASE("the summary has every figure of the run") {
