@@ -58,13 +58,13 @@ NearestPlace nearest_on(const Driven& driven, const motion::Futures& futures, st
 /// Name of a mover: "body 7" where it is tracked. One that stands may be no track.
 std::string name_of(const motion::Futures& futures, std::size_t mover, std::span<const Track> tracks) {
   constexpr double kSame_m = 0.5;
-  if (futures.is_hidden(mover)) return "somebody out of sight";
+  if (futures.is_hidden(mover)) return "a pedestrian out of sight";
   const motion::MoverAt& now = futures.at(0, mover);
   const Vec2 place{static_cast<double>(now.mid_x), static_cast<double>(now.mid_y)};
   const auto off_m = [&](const Track& track) { return distance(track.position_in_map, place); };
   const auto near = std::ranges::min_element(tracks, {}, off_m);
   return near != tracks.end() && off_m(*near) < kSame_m ? "body " + std::to_string(near->id)
-                                                        : std::string("somebody who stands");
+                                                        : std::string("a standing pedestrian");
 }
 
 /// The mover that may come nearest.

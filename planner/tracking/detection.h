@@ -36,11 +36,13 @@ enum class End : std::uint8_t {
   kHidden,   ///< it ends on something nearer, be it the robot's own, or the sweep is over: it may go on behind
 };
 
+/// Both ends of a segment, by the beams beside it.
 struct Ends {
   End low = End::kUnknown, high = End::kUnknown;  ///< at its first and last beam
   [[nodiscard]] bool seen() const { return low != End::kHidden && high != End::kHidden; }
 };
 
+/// Returns the ends of a segment. A sweep's own end hides.
 [[nodiscard]] Ends ends_of(const Segment& segment, const ScanPoints& points, const Sweep& sweep) noexcept;
 
 /// A segment that is small enough for a body, and no part of a wall, or stands alone there: something may have come.

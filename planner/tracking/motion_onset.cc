@@ -26,9 +26,9 @@ constexpr double kSeenThrough = 0.15;
 // and right.
 constexpr double kWasFree = 0.5;
 constexpr std::size_t kFewestWasFree = 4;
-// What came, by that share over some scans, seen whole, no wider and no farther off than so: 15 of 27 things of people
-// beside the driving chair, and 11 of 569 things in two minutes where nobody is.
-constexpr double kArrivesAcrossM = 0.7, kArrivesWithinM = 5.0;
+// Largest range at which an arrival counts, m: beyond it the heading's error moves walls as far. With it 15 of 27
+// targets beside the driving wheelchair arrive, and 11 of 569 where nobody is (no_people_left and right).
+constexpr double kArrivesWithinM = 5.0;
 constexpr double kHopM = 0.5 * kStrideM;   // one leg is seen, then the other
 constexpr double kExplainedSwaying = 0.6;  // legs take turns in being seen
 constexpr double kMayStand = 0.5;          // probability that it stands, at most
@@ -196,10 +196,10 @@ std::optional<double> seen_through(const Target& target, const Surroundings& aro
   return around.past.seen_through({outline.begin(), outline.size()}, around.now);
 }
 
-/// Where beams went through a moment ago, scan after scan, something came.
+/// Notes the arrival of a target: over some scans, most beams of the last second passed through its place.
 void note_arrival(Target& target, const Surroundings& around) {
   const Outline& outline = target.appearance.outline_in_map;
-  if (target.existence.misses > 0 || !target.appearance.whole || distance(outline[0], outline.back()) > kArrivesAcrossM)
+  if (target.existence.misses > 0 || !target.appearance.whole || distance(outline[0], outline.back()) > kBodyAcrossM)
     return;
   if (distance(target.estimate.track.position_in_map, around.laser_in_map()) > kArrivesWithinM) return;
   const auto through = seen_through(target, around);

@@ -9,14 +9,10 @@ namespace {
 constexpr double kUnseenForS = 2.0;  // an occluded target stays a track for so long, or for as long as it was seen
 constexpr double kSpeedStd = 0.1;    // m/s an axis, of one that comes out where it should; by trial, seeds 1 to 6
 
-/// How far a target that stands may be from where it was known to stand before, m: what stands farther off is another
-/// thing, a piece of wall beside a leg say.
-constexpr double kSameThingM = 0.15;
-
 /// Whether it is one of the targets, standing or about to go on.
 bool is_tracked(const StandingPedestrian& pedestrian, const Targets& targets) {
   return std::any_of(targets.begin(), targets.end(), [&](const Target& target) {
-    const double within_m = target.estimate.track.moving ? pedestrian.radius_m : kSameThingM;
+    const double within_m = target.estimate.track.moving ? pedestrian.radius_m : kSkinM;
     return target.confirmed() &&
            distance(target.estimate.as_seen.position_in_map, pedestrian.position_in_map) < within_m;
   });
@@ -52,13 +48,13 @@ Time last_seen(const StandingPedestrian& pedestrian, const Targets& targets, Tim
   return std::min(last, now);  // a clock may be set back
 }
 
-/// The target as one that stands; it takes over what was known of the thing before it was followed.
+/// Returns the target as a standing candidate. The target takes over the belief in the candidate at its place.
 StandingPedestrian follow(Target& target, const StandingCandidates& before, Time now) {
   const Track& seen = target.estimate.as_seen;
   PedestrianBelief& belief = target.existence.pedestrian;
   Time since = now;
   for (const StandingPedestrian& one : before) {
-    if (distance(one.position_in_map, seen.position_in_map) >= kSameThingM) continue;
+    if (distance(one.position_in_map, seen.position_in_map) >= kSkinM) continue;
     since = std::min(since, one.since);
     belief.inherit(one.belief);
   }

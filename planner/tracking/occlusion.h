@@ -51,20 +51,19 @@ class OccludedTracks {
   FixedVector<Occluded, kMaxOccludedTracks> tracks_;
 };
 
-/// What stands and is a pedestrian, or may be one: the disc is its body, though a laser at the height of shins sees but
-/// those.
+/// Standing pedestrian, or a candidate for one. The disc is the whole body, of which a low laser sees the shins only.
 struct StandingPedestrian {
   Vec2 position_in_map;
   double radius_m = 0.0;
   Time last_seen = kNever;    ///< it, or something that stood in its place
   Time since = kNever;        ///< known to stand there
   PedestrianBelief belief{};  ///< that it is one
-  bool followed = false;      ///< by a target, whose belief this copies
+  bool followed = false;      ///< a target stands here, and this copies its belief
 };
 
 using StandingPedestrians = FixedVector<StandingPedestrian, kMaxTracks>;
 
-/// Those that are pedestrians first; beyond so many, what is none yet is forgotten.
+/// Standing candidates, pedestrians first. When full, candidates that are no pedestrians are dropped.
 using StandingCandidates = FixedVector<StandingPedestrian, 3 * kMaxTracks>;
 
 /// A confirmed target that does not move stands where it was seen last. What is no target any more (the map has it)
