@@ -8,6 +8,7 @@ from command_line import reading, refuse
 from world_kinds.given import bare_hall
 
 PASSAGES_M, ASIDE_M, WAYS = (1.3, 1.5, 1.8, 2.4), (0.3, 0.5), 4
+WALL_M = 0.1  # thick, as partitions are
 HALL_MIDDLE = (12.0, 13.5)  # m, of people's ways in the hall
 
 
@@ -15,10 +16,17 @@ def recorded(file, **keys):
     return {"kind": "recorded", "file": file} | keys
 
 
+def wall_across(x, foot, end):
+    """Both faces and the end: a line alone cannot be seen edge-on, which no real wall is like."""
+    faces = [(x + side * WALL_M / 2, foot, x + side * WALL_M / 2, end) for side in (-1, 1)]
+    return faces + [(x - WALL_M / 2, end, x + WALL_M / 2, end)]
+
+
 def passage(to, name, width_m, aside_m, heading, seed, comes_m):
     """Two rooms and a passage; somebody on two legs comes at 0.8 m/s, or is there, stands at its side and stays."""
     low, y = 3.0 - width_m / 2, 3.0 - width_m / 2 + aside_m
-    walls = [(0, 0, 12, 6), (0, 0, 12, 0), (12, 0, 12, 6), (12, 6, 0, 6), (0, 6, 0, 0), (6, 0, 6, low), (6, low + width_m, 6, 6)]
+    walls = [(0, 0, 12, 6), (0, 0, 12, 0), (12, 0, 12, 6), (12, 6, 0, 6), (0, 6, 0, 0)]
+    walls += wall_across(6.0, 0.0, low) + wall_across(6.0, 6.0, low + width_m)
     x_m, y_m = comes_m * math.cos(heading), comes_m * math.sin(heading)
     walk = f"t_s,id,x_m,y_m\n0.0,1,{6.0 - x_m:.3f},{y - y_m:.3f}\n3.0,1,6.0,{y:.3f}\n900.0,1,6.0,{y:.3f}\n"
     stands = recorded(to.write(f"{name}.csv", walk), radius_m=0.27, legs=True)
