@@ -1,21 +1,22 @@
 #pragma once
 #include <CLI/CLI.hpp>
 #include <cstdio>
-#include <optional>
+#include <functional>
 
 #include "firmware/program/program.h"
 
 namespace jaywalk::bench {
-/// Reads the command line. Where it is of no use says so in a line; where the program is to end, with which exit code:
-/// 2 then, 0 after --help.
-inline std::optional<int> ended_by_command_line(CLI::App& app, int argc, char** argv) {
+/// Reads the command line, and works where the program is not to end at once. Where the command line or what it names
+/// is of no use says so in a line. Returns the exit code: 2 then, else 0.
+inline int run(CLI::App& app, int argc, char** argv, const std::function<void()>& work) {
   app.failure_message([](const CLI::App* of, const CLI::Error& error) {
     return of->get_name() + ": " + error.what() + "; see " + of->get_name() + " --help\n";
   });
   try {
     refuse_empty_words(argc, argv);
     app.parse(argc, argv);
-    return std::nullopt;
+    work();
+    return 0;
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
   } catch (const StartupError& error) {

@@ -2,6 +2,7 @@
 import argparse
 import concurrent.futures
 import contextlib
+import gzip
 import pathlib
 import re
 import subprocess
@@ -58,9 +59,26 @@ def reading(path, expected):
         refuse(f"{path}: not what was expected", f"give {expected}")
 
 
-def at_line(path, number, understand, words):
-    """What `understand` makes of a line's words."""
-    try:
-        return understand(words)
-    except (ValueError, IndexError, OverflowError):
-        refuse(f"{path}:{number}: a line that is none", "repair or delete it")
+def files_in(folder, pattern, named, remedy):
+    files = sorted(folder.glob(pattern))
+    if not files:
+        refuse(f"{folder}: no {named} in it", remedy)
+    return files
+
+
+def opened(path):
+    """A text, plain or gzip."""
+    return (gzip.open if str(path).endswith(".gz") else open)(path, "rt")
+
+
+def read_lines(path, expected, understand):
+    """What `understand` makes of the words of each line, but for empty ones and comments."""
+    rows = []
+    with reading(path, expected), opened(path) as lines:
+        for number, line in enumerate(lines, 1):
+            if line.strip() and line[0] != "#":
+                try:
+                    rows.append(understand(line.split()))
+                except (ValueError, IndexError, OverflowError):
+                    refuse(f"{path}:{number}: a line that is none", "repair or delete it")
+    return rows

@@ -47,8 +47,7 @@ struct Cells : Ends<field::CellSteps> {
   }
 };
 
-/// A pose's rate. Where the body can be a given cost is widened, as 16 bits are none of an atomic operation's, and put
-/// on the pile.
+/// A pose's rate. A given cost is widened, as atomic operations want it, and put on the pile.
 struct SowPose {
   field::PoseRates rates;
   const std::uint16_t* given;

@@ -5,8 +5,7 @@
 
 namespace jaywalk {
 
-/// The time to go on a device: over the cells of windows of up to `max_side` cells, and over poses. Thread: the
-/// planner's.
+/// The time to go on a device, over cells (`max_side` a side at most) and over poses. Thread: the planner's.
 class CudaCostToGo final : public field::CostSettler {
  public:
   /// Device and limit as CudaDevice has them, and throws like it.

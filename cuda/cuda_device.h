@@ -1,7 +1,6 @@
 #pragma once
-// A CUDA device as the planner has it: one stream, memory that is taken at the start, launches one after another, and a
-// wait that ends. What host and kernels share lies twice, in pinned and in the device's memory, and is copied: on a
-// Jetson, too, where managed memory would be maintained at every launch.
+// A CUDA device as the planner has it: one stream, memory that is taken at the start, and a wait that ends. Shared
+// arrays lie twice, in pinned and in the device's memory: on a Jetson managed memory is maintained at every launch.
 #include <cuda_runtime.h>
 
 #include <atomic>
@@ -31,8 +30,7 @@ struct Shared {
 
 class CudaDevice {
  public:
-  /// The device of that number. What has not ended by `limit` has failed. Throws std::runtime_error with the driver's
-  /// own words.
+  /// What has not ended by `limit` has failed. Throws std::runtime_error with the driver's own words.
   CudaDevice(int device, std::chrono::milliseconds limit);
   /// What a kernel may still be using is left behind: to free it would wait for the kernel.
   ~CudaDevice();
@@ -53,8 +51,7 @@ class CudaDevice {
   Shared<T> share(std::size_t n) {
     return {pin<T>(n), take<T>(n)};
   }
-  /// Whether shared memory may be touched and kernels launched: nothing that was given up still runs, and the device
-  /// works.
+  /// Whether shared memory may be touched and kernels launched: the device works, and nothing given up still runs.
   [[nodiscard]] bool is_ready() noexcept {
     if (failure_ == DeviceFailure::kRefused || (failure_ == DeviceFailure::kSilent && is_back()))
       failure_ = DeviceFailure::kNone;
@@ -90,8 +87,7 @@ class CudaDevice {
     config.stream = stream_;
     if (launched_ == cudaSuccess) launched_ = cudaLaunchKernelEx(&config, kernel, arguments...);
   }
-  /// Waits until all has ended since begin() or its time is up. False: that failed, or a wait since begin() has; until
-  /// the next begin() nothing more is launched then.
+  /// Waits until all since begin() has ended or its time is up. False: it failed; nothing more runs until begin().
   [[nodiscard]] bool wait() noexcept;
 
   /// Why the last wait failed, in a few words; empty where it did not.

@@ -3,7 +3,7 @@
 #include "cuda/cuda_cost_to_go.h"
 #include "cuda/cuda_device.h"
 #include "cuda/cuda_planner.h"
-#include "planner/cost_to_go/planning_rules.h"
+#include "planner/cost_to_go/planner.h"
 #include "planner/cost_to_go/time_to_go_planner.h"
 
 namespace jaywalk {

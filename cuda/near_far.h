@@ -15,8 +15,7 @@
 
 namespace jaywalk {
 
-/// Costs that any thread may lower. They are read past a processor's own cache, which does not see what others write,
-/// and in no other way.
+/// Costs that any thread may lower; read past a processor's own cache alone, which does not see what others write.
 class LoweredCosts {
  public:
   LoweredCosts(std::uint32_t* costs, std::int32_t stride) : costs_(costs), stride_(stride) {}

@@ -5,7 +5,6 @@
 #include <span>
 
 #include "drivers/arcos/arcos_base.h"
-#include "drivers/canopen/cia402.h"
 #include "hal/shown_text.h"
 
 namespace jaywalk {
@@ -37,6 +36,12 @@ constexpr std::array kEmergencies{CodeMeaning{0x2310, "continuous over-current"}
                                   CodeMeaning{0x8130, "controller's heartbeat missed"},
                                   CodeMeaning{0x8140, "back from bus-off"},
                                   CodeMeaning{0x8611, "following error"}};
+
+/// Classes of emergencies by the highest digit of their code (CiA 301).
+constexpr std::array kEmergencyClasses{"no error",    "generic",         "current",         "voltage",
+                                       "temperature", "device hardware", "device software", "additional modules",
+                                       "monitoring",  "external",        "reserved",        "reserved",
+                                       "reserved",    "reserved",        "reserved",        "device specific"};
 
 // mc_fault_code of the VESC firmware.
 constexpr std::array kVescFaults{"none",
@@ -128,22 +133,18 @@ std::string words_of(std::span<const CodeMeaning> meanings, std::uint32_t bits) 
 
 std::string emergency_words(std::uint32_t code) {
   const auto* found = std::ranges::find(kEmergencies, code, &CodeMeaning::code);
-  return found != kEmergencies.end() ? found->words
-                                     : std::string(canopen::emergency_class(static_cast<std::uint16_t>(code)));
+  return found != kEmergencies.end() ? found->words : kEmergencyClasses[code >> 12U & 0xFU];
 }
-
-std::string coded(const char* format, std::uint32_t number) { return formatted(format, static_cast<unsigned>(number)); }
 
 }  // namespace
 
-void require_axes(const std::array<CanAxis, 2>& axes, const AxisNumbers& numbers) {
-  const std::string kind = numbers.kind;
+void require_axes(const std::array<CanAxis, 2>& axes, const std::string& kind, int lowest, int highest, int own) {
   for (const auto& [node, per_rad] : axes) {
-    const bool fits = node >= numbers.lowest && node <= numbers.highest && node != numbers.own;
+    const bool fits = node >= lowest && node <= highest && node != own;
     if (fits && std::isfinite(per_rad) && per_rad != 0.0) continue;
     throw StartupError(kind + " " + std::to_string(node) + ": cannot be set up so",
-                       "give it a number from " + std::to_string(numbers.lowest) + " to " +
-                           std::to_string(numbers.highest) + " other than the controller's, and its units per radian");
+                       "give it a number from " + std::to_string(lowest) + " to " + std::to_string(highest) +
+                           " other than the controller's, and its units per radian");
   }
   if (axes[0].node == axes[1].node)
     throw StartupError(kind + " " + std::to_string(axes[0].node) + ": stands for both wheels", "give each its own");
@@ -157,14 +158,14 @@ std::string odrive_procedure_words(std::uint8_t result) { return word_at(kOdrive
 
 std::string describe(const DriveFault& fault) {
   const std::string node = std::to_string(fault.node) + ": ", number = std::to_string(fault.code);
+  const auto code = static_cast<unsigned>(fault.code);
   switch (fault.kind) {
     case DriveFaultKind::kEmergency:
-      return "node " + node + "emergency " + coded("%04Xh", fault.code) + " (" + emergency_words(fault.code) + ")";
+      return "node " + node + "emergency " + formatted("%04Xh", code) + " (" + emergency_words(fault.code) + ")";
     case DriveFaultKind::kMode:
       return "node " + node + "mode " + number + " in 6061h since it was enabled, not profile velocity (3)";
     case DriveFaultKind::kOdrive:
-      return "ODrive node " + node + "error " + coded("%08Xh", fault.code) + " (" + odrive_error_words(fault.code) +
-             ")";
+      return "ODrive node " + node + "error " + formatted("%08Xh", code) + " (" + odrive_error_words(fault.code) + ")";
     case DriveFaultKind::kVesc:
       return "VESC " + node + "fault " + number + " (" + word_at(kVescFaults, fault.code) + ")";
     case DriveFaultKind::kVescStill:

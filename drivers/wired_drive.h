@@ -15,7 +15,6 @@
 #include "hal/types/errors.h"
 #include "hal/types/robot_model.h"
 #include "hal/types/time.h"
-#include "hal/types/wheels.h"
 
 namespace jaywalk {
 
@@ -57,10 +56,10 @@ class EmergencyBrake {
   virtual void brake() noexcept = 0;
 };
 
-/// Frames that tell two drives to stop, over a place of its own on their bus.
+/// Frames that tell the drives to stop, over a place of its own on their bus.
 class FrameBrake final : public EmergencyBrake {
  public:
-  /// `bus` outlives it and belongs to the thread that brakes.
+  /// `bus` outlives it and takes frames from the thread that brakes.
   FrameBrake(CanBus& bus, std::vector<CanFrame> frames) noexcept : bus_(bus), frames_(std::move(frames)) {}
   /// Ignores whether a frame is taken: there is no third way, and it is said again as long as it has to be.
   void brake() noexcept override {
@@ -80,15 +79,15 @@ struct CanAxis {
   double per_rad = 0.0;
 };
 
-/// Numbers that drives of one kind may have.
-struct AxisNumbers {
-  const char* kind;  ///< "ODrive node"
-  int lowest = 0, highest = 0;
-  int own = -1;  ///< the controller's
-};
+/// Throws StartupError for an axis without a scale, with a number that its kind ("ODrive node") cannot have, or with
+/// that of the other or of the controller, `own`.
+void require_axes(const std::array<CanAxis, 2>& axes, const std::string& kind, int lowest, int highest, int own = -1);
 
-/// Throws StartupError for an axis without a scale, with a number that its kind cannot have, or with the other's.
-void require_axes(const std::array<CanAxis, 2>& axes, const AxisNumbers& numbers);
+/// `value`, cut at `most` either way, to the nearest whole number.
+[[nodiscard]] inline std::int32_t rounded_within(double value, double most) noexcept {
+  const double within = std::clamp(value, -most, most);
+  return static_cast<std::int32_t>(within < 0.0 ? within - 0.5 : within + 0.5);
+}
 
 /// True where a wheel's counter jumped, by a restart or a slip: the difference is no way.
 ///

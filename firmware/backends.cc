@@ -17,9 +17,7 @@
 
 namespace jaywalk {
 
-#if JAYWALK_HAS_CUDA
-const char* built_backends() { return "cpu, cuda"; }
-#else
+#if !JAYWALK_HAS_CUDA
 namespace {
 std::unique_ptr<Planner> make_cuda_planner(const PlannerConfig&, int, std::string& why_not) {
   why_not = "cuda: not in this build";
@@ -28,8 +26,9 @@ std::unique_ptr<Planner> make_cuda_planner(const PlannerConfig&, int, std::strin
 bool passes_cuda_trial(int, std::string& why_not) { return why_not = "cuda: not in this build", false; }
 bool has_cuda_left_behind() { return false; }
 }  // namespace
-const char* built_backends() { return "cpu"; }
 #endif
+
+const char* built_backends() { return JAYWALK_HAS_CUDA ? "cpu, cuda" : "cpu"; }
 
 void refuse_cuda(const std::string& why_not) {
   throw StartupError("--backend " + why_not, "plan on the CPU: --backend cpu, or auto");
@@ -71,6 +70,17 @@ EvidenceMap map_for(const ControlSetup& setup) {
   return {PerceptionConfig{}.map_side_cells, setup.planner().cell_m, {}};
 }
 
+namespace {
+/// A copy of as many as fit.
+template <class T, std::size_t N>
+std::span<const T> kept(FixedVector<T, N>& mine, std::span<const T> theirs) noexcept {
+  mine.clear();
+  for (const T& each : theirs)
+    if (!mine.push_back(each)) break;
+  return {mine.data(), mine.size()};
+}
+}  // namespace
+
 PlannerThread::PlannerThread(std::unique_ptr<Planner> planner, const EvidenceMap& map, TickObserver& observer)
     : planner_(std::move(planner)), observer_(observer), still_(map) {
   thread_ = thread_without_signals("plan", [this] { run(); });
@@ -87,23 +97,11 @@ void PlannerThread::submit(const PlanRequest& request) noexcept {
   request_ = request;
   assert(request.still->side() == still_.side());
   still_.follow(*request.still);  // of the same size: no memory is taken
-  moving_.clear();
-  for (const Track& track : request.moving)
-    if (!moving_.push_back(track)) break;
-  standing_.clear();
-  for (const StandingPedestrian& stander : request.standing)
-    if (!standing_.push_back(stander)) break;
-  masked_.clear();
-  for (const MoverDisc& disc : request.masked)
-    if (!masked_.push_back(disc)) break;
-  unseen_walls_.clear();
-  for (const Vec2 wall : request.poses.unseen_walls)
-    if (!unseen_walls_.push_back(wall)) break;
-  request_.poses.unseen_walls = {unseen_walls_.begin(), unseen_walls_.size()};
-  request_.masked = {masked_.begin(), masked_.size()};
   request_.still = &still_;
-  request_.moving = {moving_.begin(), moving_.size()};
-  request_.standing = {standing_.begin(), standing_.size()};
+  request_.moving = kept(moving_, request.moving);
+  request_.standing = kept(standing_, request.standing);
+  request_.masked = kept(masked_, request.masked);
+  request_.poses.unseen_walls = kept(unseen_walls_, request.poses.unseen_walls);
   busy_.store(true, std::memory_order_release);
   asked_.fetch_add(1, std::memory_order_release);
   asked_.notify_one();

@@ -173,7 +173,7 @@ LoopRunner::LoopRunner(const ControlSetup& setup, Hal hal, const Files& files, T
       recorder_({.file = files.records ? recording_in(parts_) : "", .setup = to_text(setup)}),
       loop_(setup, hal, *chosen_.planner, recorder_),
       observer_(observer),
-      recording_(files.records && !parts_.any() ? std::optional(files.folder / "recording.jwr") : std::nullopt),
+      recording_(files.records && !parts_.any() ? files.folder / "recording.jwr" : std::filesystem::path()),
       due_(hal.clock.now()) {
   observer_.begin(files.folder, parts_.place(), setup_);
 }
@@ -255,7 +255,7 @@ std::filesystem::path LoopRunner::finish(RunEnd end) {
   if (!chosen_.why_not_cuda.empty()) end.backend += " (" + chosen_.why_not_cuda + ")";
   end.mode = name_of(setup_.mode);
   end.version = JAYWALK_VERSION;
-  if (recording_) end.recording = *recording_;
+  end.recording = recording_;
   if (end.title.empty()) end.title = end.scenario;
   const std::filesystem::path shown = observer_.finish(end, loop_, *chosen_.planner);
   tell_losses();

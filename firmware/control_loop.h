@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -40,15 +39,12 @@ class ControlLoop {
   [[nodiscard]] const Plan& plan() const noexcept { return *plan_; }
   [[nodiscard]] const motion::Motion& motion() const noexcept { return *motion_; }
   [[nodiscard]] Mode mode() const noexcept { return supervisor_.mode(); }
-  /// At the goal, on the way to the heading wanted there.
   [[nodiscard]] bool turns_at_goal() const noexcept { return motion_->status().turns_at_goal; }
 
  private:
   void read_devices(TickRecord& t) noexcept;
   void take_plan(TickRecord& t) noexcept;
-  /// What motion wants.
   void ask(TickRecord& t) noexcept;
-  /// What the supervisor makes of it.
   void permit(TickRecord& t) noexcept;
   void send(TickRecord& t) noexcept;
   /// With a new scan or plan: how to move from the next tick on, and what to plan next.
@@ -85,7 +81,6 @@ class ControlLoop {
 /// happens between ticks.
 class LoopRunner {
  public:
-  /// Makes the loop's planner.
   using MakePlanner = std::function<ChosenPlanner(const ControlSetup&)>;
 
   /// Where the run's files go, and whether it is recorded.
@@ -99,7 +94,6 @@ class LoopRunner {
   LoopRunner(const ControlSetup& setup, Hal hal, const Files& files, TickObserver& observer,
              const MakePlanner& make = {});
 
-  /// Sleeps until the next tick is due and lives through it.
   const TickRecord& step() { return step_at(due_); }
   /// The same for a tick at a time that the caller knows; the next is due a period later.
   const TickRecord& step_at(Time due);
@@ -124,7 +118,6 @@ class LoopRunner {
   [[nodiscard]] const TickRecord& last() const { return *record_; }
   [[nodiscard]] const ControlSetup& setup() const { return setup_; }
   [[nodiscard]] const Planner& planner() const { return *chosen_.planner; }
-  /// How long the last tick took.
   [[nodiscard]] Duration last_took() const { return took_; }
   /// Ticks that took longer than a period of the wall clock.
   [[nodiscard]] std::uint64_t overruns() const { return overruns_; }
@@ -142,7 +135,7 @@ class LoopRunner {
   Recorder recorder_;
   ControlLoop loop_;
   TickObserver& observer_;
-  std::optional<std::filesystem::path> recording_;  ///< where one is made, whole
+  std::filesystem::path recording_;  ///< where one is made, whole; else empty
   Time due_;
   const TickRecord* record_ = nullptr;
   Duration took_{0};

@@ -117,11 +117,6 @@ std::shared_ptr<const KnownMap> known_map_of(const nlohmann::json& json) {
   return std::make_shared<const KnownMap>(std::move(map));
 }
 
-[[noreturn]] void refuse_setup(const std::string& place, const std::exception& error) {
-  throw StartupError(place + ": not a controller's setup (" + error.what() + ")",
-                     "give a recording that this program wrote");
-}
-
 }  // namespace
 
 bool ControlSetup::has_long_body() const {
@@ -197,10 +192,9 @@ ControlSetup setup_from_text(const std::string& text, const std::string& place) 
     setup.zones = json.value("zones", setup.zones);
     if (json.contains("known_map")) setup.known_map = known_map_of(json["known_map"]);
     return setup;
-  } catch (const nlohmann::json::exception& error) {
-    refuse_setup(place, error);
-  } catch (const std::invalid_argument& error) {
-    refuse_setup(place, error);
+  } catch (const std::exception& error) {
+    throw StartupError(place + ": not a controller's setup (" + error.what() + ")",
+                       "give a recording that this program wrote");
   }
 }
 

@@ -48,8 +48,7 @@ struct ControlSetup {
   std::shared_ptr<const KnownMap> known_map{};  ///< what is known before the first scan; null: nothing
   std::vector<MapZone> zones{};                 ///< where not to drive, and where slowly
   double comfort_distance_m = 1.0;              ///< people nearer than this cost; hal/robot_model_file.h
-  Duration unix_from_loop{
-      0};        ///< the wall clock less the loop's at the start; 0: the loop's has no wall clock beside it
+  Duration unix_from_loop{0};  ///< the wall clock less the loop's at the start; 0: there is none beside it
   int part = 1;  ///< number of the recording's part, from 1; a later part does not hold what the run did before it
 
   /// Whether the body is more than a circle to the planners of others. At constant speed none is: it can neither stop

@@ -1,6 +1,7 @@
 #include "firmware/estimator.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "planner/localization/odometry.h"
 
@@ -9,12 +10,6 @@ namespace {
 
 constexpr LaserScan kNoScan{};
 constexpr Duration kNoWayFor = std::chrono::seconds(10);  // time for a person in the way to walk on
-
-OfOthers<Pose2> other_mounts(const RobotModel& model) {
-  OfOthers<Pose2> mounts;
-  for (const LaserModel& laser : model.other_lasers) (void)mounts.push_back(laser.robot_from_laser);
-  return mounts;
-}
 
 LocalizationConfig localization_config(const ControlSetup& setup) {
   return {.map_from_robot_at_start = setup.start,
@@ -67,12 +62,12 @@ bool Estimator::update(const TickRecord& t) noexcept {
 
 bool Estimator::take(const TickRecord& t, const LaserScan& scan) noexcept {
   const bool frozen = frozen_[scan.scanner];
-  const bool new_scan = scans_[scan.scanner].is_new(scan.sequence) && !frozen;
+  const bool new_scan = std::exchange(scans_seen_[scan.scanner], scan.sequence) != scan.sequence && !frozen;
   const bool explained = is_explained(scan, t.wheels);
   const LaserScan& seen = frozen || !explained ? kNoScan : scan;  // a frozen one shows what was
   const bool in_doubt = pose_.doubtful;
   pose_ = localizer_.update(t.wheels, seen, t.fix, tracker_.still(), tracker_.moving());
-  if (sees_given_movers_ && fixes_.is_new(t.fix.sequence)) tracker_.update_given(t.fix);
+  if (sees_given_movers_ && std::exchange(fix_seen_, t.fix.sequence) != t.fix.sequence) tracker_.update_given(t.fix);
   if (in_doubt && !pose_.doubtful) end_doubt();
   if (!new_scan || !explained || pose_.doubtful) return false;
   tracker_.update(scan, localizer_.map_from_robot_at_scan(scan.scanner), localizer_.twist(), t.now);

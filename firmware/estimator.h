@@ -1,8 +1,8 @@
 #pragma once
 // The tick's step "Estimate": where the robot is, what stands around it and what moves.
 #include <array>
+#include <cstdint>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "firmware/control_setup.h"
@@ -17,9 +17,8 @@
 
 namespace jaywalk {
 
-/// Localizer and tracker with the rules that feed them: the same in the control loop and where a recording is seen
-/// again without planning. Of a tick: update(), then with its plan's status forget_where_stuck(), at its end
-/// end_tick(). Only the constructor allocates. Thread: the loop's.
+/// Localizer and tracker with the rules that feed them. Of a tick: update(), then with its plan's status
+/// forget_where_stuck(), at its end end_tick(). Only the constructor allocates. Thread: the loop's.
 class Estimator {
  public:
   explicit Estimator(const ControlSetup& setup);
@@ -30,7 +29,6 @@ class Estimator {
   /// Where it has stood for ten seconds with a goal and no path to it: what is mapped out of sight may have gone. Looks
   /// at the tick's input and at what became of its plan.
   void forget_where_stuck(const TickRecord& t) noexcept;
-  /// The tick is judged and commanded.
   void end_tick(const TickRecord& t) noexcept;
 
   [[nodiscard]] const PoseEstimate& pose() const noexcept { return pose_; }
@@ -38,26 +36,15 @@ class Estimator {
   /// as long as its reports are not stale. Else pose().
   [[nodiscard]] PoseEstimate pose_at(Time now) const noexcept;
   [[nodiscard]] const Tracker& tracker() const noexcept { return tracker_; }
-  /// Localizer's.
   [[nodiscard]] Pose2 map_from_robot_at_scan(std::size_t scanner = 0) const noexcept {
     return localizer_.map_from_robot_at_scan(scanner);
   }
   [[nodiscard]] Twist2 twist() const noexcept { return localizer_.twist(); }
 
  private:
-  /// Tells a device's new reading from one seen before.
-  class Fresh {
-   public:
-    [[nodiscard]] bool is_new(std::uint32_t sequence) noexcept { return std::exchange(last_, sequence) != sequence; }
-
-   private:
-    std::uint32_t last_ = 0;
-  };
-
   /// True where standing explains the scan of a robot at rest. Puts the pose in doubt where it was carried.
   [[nodiscard]] bool is_explained(const LaserScan& scan, const WheelState& wheels) noexcept;
   void end_doubt() noexcept;
-  /// Of one scanner.
   [[nodiscard]] bool take(const TickRecord& t, const LaserScan& scan) noexcept;
 
   bool sees_given_movers_;  ///< they come with the fix
@@ -70,8 +57,8 @@ class Estimator {
   std::vector<Rest> rests_;  ///< of each scanner
   Tracker tracker_;
   PoseEstimate pose_;
-  std::array<Fresh, kMostScanners> scans_;
-  Fresh fixes_;
+  std::array<std::uint32_t, kMostScanners> scans_seen_{};  ///< sequence of each scanner's newest
+  std::uint32_t fix_seen_ = 0;
   std::array<bool, kMostScanners> frozen_{};  ///< the supervisor said so of the tick before
   bool stood_ = true;                         ///< the wheels were commanded nothing in the tick before
   Time had_way_ = kNever;                     ///< or moved, had no goal, or looked anew for one, last

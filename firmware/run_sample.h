@@ -55,7 +55,6 @@ struct LoopTimes {
 
 class ControlLoop;
 
-/// A mover as it really is.
 struct TrueMover {
   std::uint32_t id = 0;
   Vec2 position_in_map;
@@ -137,9 +136,7 @@ class TickObserver {
   virtual void follow() {}
   /// Rows of ticks later than `last` go to the folder `part`. Throws StartupError where it cannot be made.
   virtual void continue_in(const std::filesystem::path& /*part*/, Time /*last*/) {}
-  /// No more rows are written.
   virtual void end_tables() {}
-  /// Bytes written to the current folder.
   [[nodiscard]] virtual std::uintmax_t bytes() const { return 0; }
   /// One line for each file that the disk did not take whole.
   [[nodiscard]] virtual std::vector<std::string> complaints() const { return {}; }

@@ -1,10 +1,6 @@
 #pragma once
-// What the machine can do, as the control loop sees it. Each device hands out the newest thing it
-// has, at once: nothing here waits, allocates or throws. Implementations: hal/sim (a simulated
-// robot, a recording), drivers (the wires).
-//
-// Threads: the loop's thread alone calls these; devices that have a thread of their own publish
-// through hal/mailbox.h.
+// Devices of the machine, as the control loop sees them. Each hands out the newest thing it has, at once: nothing here
+// waits, allocates or throws. Thread: the loop's; devices that have one of their own publish through hal/mailbox.h.
 #include "hal/types/laser_scan.h"
 #include "hal/types/operator_input.h"
 #include "hal/types/outside_fix.h"

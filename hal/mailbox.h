@@ -5,11 +5,8 @@
 
 namespace jaywalk {
 
-/// Hands the newest T from one writing thread to one reading thread; neither ever waits.
-///
-/// Three slots: one that the writer fills, one that the reader holds, one in between. Publishing
-/// swaps the writer's slot with the middle one, reading swaps the middle with the reader's; what
-/// was not read in time is overwritten, as is right for sensors.
+/// Hands the newest T from one writing thread to one reading thread; neither ever waits. Publishing swaps the writer's
+/// slot with the middle one, reading swaps the middle with the reader's; what was not read in time is overwritten.
 template <class T>
 class Mailbox {
  public:

@@ -64,15 +64,12 @@ MapZone read_zone(TomlTable& table) {
 
 /// Beyond kWidestZones_m in x or in y.
 bool are_too_far_apart(const std::vector<MapZone>& zones) {
-  Vec2 low{1e9, 1e9}, high{-1e9, -1e9};
+  Box2 all;
   for (const MapZone& zone : zones) {
-    if (zone.kind != ZoneKind::kKeepOut) continue;
-    for (const Vec2 p : zone.corners) {
-      low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-      high = {std::max(high.x, p.x), std::max(high.y, p.y)};
-    }
+    if (zone.kind == ZoneKind::kKeepOut)
+      std::for_each(zone.corners.begin(), zone.corners.end(), [&](Vec2 p) { all.hold(p); });
   }
-  return high.x - low.x > kWidestZones_m || high.y - low.y > kWidestZones_m;
+  return all.high.x - all.low.x > kWidestZones_m || all.high.y - all.low.y > kWidestZones_m;
 }
 
 }  // namespace

@@ -14,12 +14,10 @@ inline constexpr double kWidestZones_m = 400.0;
 /// The rows of [[zones]], and the one that says so at the top.
 [[nodiscard]] std::vector<SettingKey> zone_keys();
 
-/// Throws StartupError "FILE:LINE: cause; remedy" for a zone that is no polygon: fewer than three corners, no area,
-/// sides that cross.
+/// Throws StartupError "FILE:LINE: cause; remedy" for a zone of no area or with sides that cross.
 [[nodiscard]] std::vector<MapZone> read_zones(TomlTable& root);
 
-/// Throws StartupError beginning with `place` where `goal` lies in a keep-out zone, or nearer to one than a body of
-/// `radius_m` may stand.
+/// Throws StartupError beginning with `place` where a body of `radius_m` at `goal` reaches into a keep-out zone.
 void require_goal_outside(const std::vector<MapZone>& zones, Vec2 goal, double radius_m, const std::string& place);
 
 }  // namespace jaywalk

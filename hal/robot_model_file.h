@@ -10,8 +10,7 @@
 
 namespace jaywalk {
 
-// How a ride is to feel: one word in place of several limits.
-
+/// One word in place of several limits: how a ride is to feel.
 enum class Comfort { kGentle, kNormal, kBrisk };
 
 /// In the order of the enumeration: "gentle", "normal", "brisk".
@@ -30,7 +29,6 @@ inline constexpr double kMostComfortAccel_mps2 = 1.0, kMostComfortJerk_mps3 = 2.
 /// The limits of a ride that feels so. Braking stays: it is what the drives were proved to do.
 [[nodiscard]] MotionLimits limits_for(Comfort comfort, const RobotModel& model) noexcept;
 
-/// Its keys.
 [[nodiscard]] const FileKeys& robot_model_keys();
 /// Those of a table `section` that lies over a model's laser: none is needed, each is the model's without it.
 [[nodiscard]] std::vector<SettingKey> laser_keys(const std::string& section);
@@ -58,8 +56,7 @@ inline constexpr double kMostComfortAccel_mps2 = 1.0, kMostComfortJerk_mps3 = 2.
 void read_lasers(std::vector<TomlTable> tables, RobotModel& model,
                  const std::function<void(TomlTable&, LaserModel&)>& read_more);
 
-/// Lays the laser table's keys (fov_deg, beams, rate_hz, range_min_m, range_m, noise_m, drop_out, mount, blanked) over
-/// `laser`; keys that are absent leave it as it is.
+/// Lays a laser table's keys over `laser`; keys that are absent leave it as it is.
 void read_laser(TomlTable& table, LaserModel& laser);
 
 }  // namespace jaywalk

@@ -140,10 +140,6 @@ std::vector<std::string> written_values(const toml::value& value) {
   return values;
 }
 
-bool is_any_empty(const std::vector<std::string>& values) {
-  return values.empty() || std::any_of(values.begin(), values.end(), [](const std::string& v) { return v.empty(); });
-}
-
 }  // namespace
 
 SettingKey key_row(const char* key, KeyKind kind, Otherwise otherwise, const char* meaning, const char* unit) {
@@ -293,7 +289,7 @@ std::vector<ListedKey> TomlTable::all_listed(const std::string& before) const {
       continue;
     }
     const std::vector<std::string> values = written_values(value);
-    if (is_any_empty(values))
+    if (values.empty() || std::find(values.begin(), values.end(), "") != values.end())
       refuse(printable(key), "is neither text, number nor truth value, nor a list of them", "write one");
     all.push_back({before + key, values, place_of(key), line(key)});
   }

@@ -1,7 +1,6 @@
 #pragma once
 // The keys of the settings files: one table a kind of file, for its parser, `jaywalk config --explain` and the
-// reference page. A parser cannot read a key that is not in its table, and takes range and default from there.
-// Settings given beside a file, "movers.count=16", in place of the file's own. Start-up only.
+// reference page; and settings given beside a file, "movers.count=16", in place of its own. Start-up only.
 #include <filesystem>
 #include <string>
 #include <toml.hpp>
@@ -51,8 +50,7 @@ struct FileKeys {
   const char* title = "";  ///< "Scenario file"
   std::vector<SettingKey> keys;
 
-  /// The key of `section`, or else of the section without its ":kind". Throws std::logic_error where there is none: a
-  /// parser asks for what the table does not have.
+  /// The key of `section`, or else of the section without its ":kind". Throws std::logic_error where there is none.
   [[nodiscard]] const SettingKey& find(const std::string& section, const std::string& key) const;
   [[nodiscard]] bool has(const std::string& section, const std::string& key) const;
   /// The choice of `section` ("vesc" of "drive:vesc") that has this key; empty where none has.
@@ -75,8 +73,7 @@ inline constexpr const char* kGivenPlace = "--set ";
 /// Puts `setting`, KEY=VALUE, into the parsed file `root`: KEY is a path of `keys`; VALUE is true, false, a number,
 /// numbers with commas between them, or else a text. A key of tables written as [[movers]] is put into each of them
 /// that may hold it; tables that are missing are made. A file's name is relative to the working folder. Throws
-/// StartupError for what is no KEY=VALUE, an unknown key, or a list without a table that may hold it; range and kind of
-/// the value are the parser's to judge.
+/// StartupError, but leaves range and kind of the value to the parser.
 void apply_setting(toml::value& root, const FileKeys& keys, const std::filesystem::path& file,
                    const std::string& setting);
 

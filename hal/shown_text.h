@@ -8,23 +8,17 @@
 #include <string_view>
 #include <vector>
 
+#include "hal/types/errors.h"
+
 namespace jaywalk {
 
-/// What of a stranger's `text` a message may hold: its first 40 characters, '?' for each that a terminal might obey
-/// rather than print.
+/// The first 40 characters of a stranger's text, for messages: '?' for each that a terminal might obey.
 [[nodiscard]] inline std::string shown(std::string_view text) {
   constexpr std::size_t kMost = 40;
   std::string out(text.substr(0, kMost));
   std::replace_if(
       out.begin(), out.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
   return text.size() > kMost ? out + "..." : out;
-}
-
-/// The whole of it, with '?' for each control character; letters of other alphabets stay.
-[[nodiscard]] inline std::string printable(std::string text) {
-  std::replace_if(
-      text.begin(), text.end(), [](char c) { return (c >= '\0' && c < ' ') || c == '\x7F'; }, '?');
-  return text;
 }
 
 /// For a person: "-0", "-0.00" become "0", "0.00" wherever a number in `text` is that.
@@ -74,8 +68,7 @@ template <class T>
   return row.back();
 }
 
-/// "did you mean WORD?" for the nearest of `known` where at most a third of the letters differ, or two; else
-/// `otherwise`.
+/// "did you mean WORD?" for the nearest of `known`, of which two letters or a third may differ; else `otherwise`.
 [[nodiscard]] inline std::string did_you_mean(std::string_view word, const std::vector<std::string>& known,
                                               const std::string& otherwise) {
   const std::string* nearest = nullptr;

@@ -49,8 +49,7 @@ std::string cause_in(const std::string& text) {
   return colon == std::string::npos ? line : line.substr(colon + 2);
 }
 
-/// The parser calls itself for each bracket within another, and 20,000 break the stack. Far more than any file of ours
-/// has, those in texts and comments included.
+/// The parser calls itself for each bracket within another, and 20,000 break the stack. Those in texts count, too.
 constexpr int kDeepestNesting = 500;
 
 void refuse_deep_nesting(const std::filesystem::path& file, const std::string& text) {
@@ -64,8 +63,7 @@ void refuse_deep_nesting(const std::filesystem::path& file, const std::string& t
   }
 }
 
-/// toml11 3.7 ends the program by an assertion at some mistakes behind a text of several lines. No key of ours needs
-/// one.
+/// toml11 3.7 ends the program by an assertion at some mistakes behind one. No key of ours needs one.
 void refuse_texts_of_several_lines(const std::filesystem::path& file, const std::string& text) {
   std::istringstream stream(text);
   std::size_t number = 1;
@@ -170,42 +168,23 @@ double TomlTable::number_from(const std::string& key, const toml::value& node, R
   return value;
 }
 
-double TomlTable::number(const std::string& key) {
-  const auto* otherwise = std::get_if<double>(&row(key).otherwise);
-  return otherwise != nullptr ? number(key, *otherwise) : number_from(key, need(key), row(key).range);
-}
-
-double TomlTable::number(const std::string& key, double otherwise) {
-  return number(key, otherwise, row(key).range.high);
-}
-
-double TomlTable::number(const std::string& key, double otherwise, double most) {
-  const toml::value* node = find_unless_needed(key);
+double TomlTable::number(const std::string& key, std::optional<double> otherwise, double most) {
+  const toml::value* node = find_number(key, otherwise);
   const Range range = row(key).range;
-  return node == nullptr ? otherwise : number_from(key, *node, {range.low, std::min(range.high, most)});
+  return node == nullptr ? *otherwise : number_from(key, *node, {range.low, std::min(range.high, most)});
 }
 
-std::int64_t TomlTable::integer_from(const std::string& key, const toml::value& node) const {
-  if (!node.is_integer()) refuse(key, "is not a whole number", "write a whole number");
-  static_cast<void>(number_from(key, node, row(key).range));  // refuses what is outside
-  return node.as_integer();
+std::int64_t TomlTable::integer(const std::string& key, std::optional<std::int64_t> otherwise) {
+  const toml::value* node = find_number(key, otherwise);
+  if (node == nullptr) return *otherwise;
+  if (!node->is_integer()) refuse(key, "is not a whole number", "write a whole number");
+  static_cast<void>(number_from(key, *node, row(key).range));  // refuses what is outside
+  return node->as_integer();
 }
 
-std::int64_t TomlTable::integer(const std::string& key) {
-  const auto* otherwise = std::get_if<double>(&row(key).otherwise);
-  return otherwise != nullptr ? integer(key, static_cast<std::int64_t>(*otherwise)) : integer_from(key, need(key));
-}
-
-std::int64_t TomlTable::integer(const std::string& key, std::int64_t otherwise) {
-  const toml::value* node = find_unless_needed(key);
-  return node == nullptr ? otherwise : integer_from(key, *node);
-}
-
-bool TomlTable::boolean(const std::string& key) { return boolean(key, std::get<bool>(row(key).otherwise)); }
-
-bool TomlTable::boolean(const std::string& key, bool otherwise) {
+bool TomlTable::boolean(const std::string& key, std::optional<bool> otherwise) {
   const toml::value* node = find(key);
-  if (node == nullptr) return otherwise;
+  if (node == nullptr) return otherwise ? *otherwise : std::get<bool>(row(key).otherwise);
   if (!node->is_boolean()) refuse(key, "is not true or false", "write true or false");
   return node->as_boolean();
 }

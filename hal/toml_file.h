@@ -1,9 +1,9 @@
 #pragma once
-// Reading settings from TOML files in such a way that every mistake is refused with its place:
-// "FILE:LINE: cause; remedy". Start-up only.
+// Settings from TOML files; every mistake is refused with its place, "FILE:LINE: cause; remedy". Start-up only.
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <set>
 #include <string>
@@ -35,16 +35,12 @@ class TomlTable {
   [[nodiscard]] bool needs(const std::string& key) const {
     return std::holds_alternative<std::monostate>(row(key).otherwise);
   }
-  /// The number under `key`, else its default; without one the key must be there. Throws for a wrong type, NaN, or
-  /// outside the key's range.
-  [[nodiscard]] double number(const std::string& key);
-  /// The same, with a default that the table of keys tells in words, and at most `most` where that is less.
-  [[nodiscard]] double number(const std::string& key, double otherwise);
-  [[nodiscard]] double number(const std::string& key, double otherwise, double most);
-  [[nodiscard]] std::int64_t integer(const std::string& key);
-  [[nodiscard]] std::int64_t integer(const std::string& key, std::int64_t otherwise);
-  [[nodiscard]] bool boolean(const std::string& key);
-  [[nodiscard]] bool boolean(const std::string& key, bool otherwise);
+  /// The number under `key`, else `otherwise`, else the default of the table of keys; where that has none the key must
+  /// be there. Throws for a wrong type, NaN, outside the key's range, or more than `most`.
+  [[nodiscard]] double number(const std::string& key, std::optional<double> otherwise = {},
+                              double most = std::numeric_limits<double>::infinity());
+  [[nodiscard]] std::int64_t integer(const std::string& key, std::optional<std::int64_t> otherwise = {});
+  [[nodiscard]] bool boolean(const std::string& key, std::optional<bool> otherwise = {});
   [[nodiscard]] std::string text(const std::string& key);
   [[nodiscard]] std::string text(const std::string& key, const std::string& otherwise);
   /// Which of the key's choices it is, counted from 0.
@@ -61,8 +57,7 @@ class TomlTable {
   [[nodiscard]] std::vector<double> numbers(const std::string& key, std::size_t least, std::size_t most);
   /// One text, or a list of at least one.
   [[nodiscard]] std::vector<std::string> texts(const std::string& key);
-  /// All that stands in the table under `key`, in the file's order: texts, numbers and truth values, or lists of them.
-  /// Nothing where there is no such table.
+  /// All keys of the table under `key`, in the file's order; none where there is no such table.
   [[nodiscard]] std::vector<ListedKey> listed(const std::string& key);
   /// A place in the map: [x, y] or [x, y, heading], within 100 km and one turn to either side; of `least` to 3 numbers.
   [[nodiscard]] std::vector<double> place_in_map(const std::string& key, std::size_t least);
@@ -96,8 +91,14 @@ class TomlTable {
   const toml::value& need(const std::string& key);
   /// Throws where a key of the table that the file does not know looks like `key`.
   void refuse_misspelt(const std::string& key) const;
-  /// As `find`, but one that is needed must be there.
-  const toml::value* find_unless_needed(const std::string& key) { return needs(key) ? &need(key) : find(key); }
+  /// As `find`, but a number must be there where it has no default, neither `otherwise` nor one of its own, which then
+  /// becomes `otherwise`.
+  template <class Number>
+  const toml::value* find_number(const std::string& key, std::optional<Number>& otherwise) {
+    const auto* own = std::get_if<double>(&row(key).otherwise);
+    if (own != nullptr && !otherwise) otherwise = static_cast<Number>(*own);
+    return needs(key) || !otherwise ? &need(key) : find(key);
+  }
   [[nodiscard]] std::string title(const std::string& key) const { return name_.empty() ? key : name_ + "." + key; }
   [[nodiscard]] std::size_t line(const std::string& key) const;
   [[nodiscard]] std::vector<ListedKey> all_listed(const std::string& before) const;
@@ -105,7 +106,6 @@ class TomlTable {
   [[nodiscard]] std::vector<double> numbers_from(const std::string& key, const toml::value& node, std::size_t least,
                                                  std::size_t most) const;
   void require_in_map(const std::string& key, const std::vector<double>& values) const;
-  [[nodiscard]] std::int64_t integer_from(const std::string& key, const toml::value& node) const;
 
   const std::filesystem::path* file_;
   const FileKeys* keys_;
@@ -131,6 +131,14 @@ BoundKey<T> number_row(const char* key, double T::*member, Range range, const ch
   return {number_row(key, range, unit, T{}.*member, meaning),
           [=](TomlTable& table, T& into) { into.*member = table.number(key, into.*member); }};
 }
+/// The same of a member that stays empty where the key is absent; `otherwise` tells what then holds.
+template <class T>
+BoundKey<T> number_row(const char* key, std::optional<double> T::*member, Range range, const char* unit,
+                       const char* otherwise, const char* meaning) {
+  return {number_row(key, range, unit, otherwise, meaning), [=](TomlTable& table, T& into) {
+            if (table.has(key)) into.*member = table.number(key);
+          }};
+}
 template <class T, class Whole>
 BoundKey<T> whole_row(const char* key, Whole T::*member, Range range, const char* unit, const char* meaning) {
   return {whole_row(key, range, unit, static_cast<double>(T{}.*member), meaning), [=](TomlTable& table, T& into) {
@@ -141,6 +149,13 @@ template <class T>
 BoundKey<T> boolean_row(const char* key, bool T::*member, const char* meaning) {
   return {key_row(key, KeyKind::kBoolean, T{}.*member, meaning),
           [=](TomlTable& table, T& into) { into.*member = table.boolean(key, into.*member); }};
+}
+
+/// The same row with another default; kNeeded: it must be there.
+template <class T>
+BoundKey<T> with_default(BoundKey<T> bound, const Otherwise& otherwise) {
+  bound.row.otherwise = otherwise;
+  return bound;
 }
 
 /// The rows of one section and how they are read into a `T`.

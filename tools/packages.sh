@@ -1,5 +1,5 @@
 # shellcheck shell=bash
-# What the build needs from the system, and how it gets there; sourced by tools/demo and tools/test.
+# What the build needs from the system, and how it gets there; sourced by the other scripts.
 
 # Names hold for Debian 12 and Ubuntu 22.04 and 24.04.
 readonly kLibraries=(catch2 fonts-dejavu-core libboost-dev libbz2-dev libcairo2-dev libcli11-dev libeigen3-dev liblz4-dev libpng-dev libsqlite3-dev libssl-dev
@@ -38,6 +38,30 @@ install_missing() {
     echo "packages: could not install; with a network and root, this does it: apt-get install ${missing[*]}" >&2
     return 1
   fi
+}
+
+# own_apt ARCH FOLDER: apt-get works for that architecture in FOLDER/apt from here on; this machine's packages and
+# architectures stay as they are.
+own_apt() {
+  mkdir -p "$2"/apt/{state/lists/partial,cache/archives/partial}
+  touch "$2/apt/status"
+  cat >"$2/apt/apt.conf" <<C
+APT::Architecture "$1";
+APT::Architectures { "$1"; };
+APT::Install-Recommends "false";
+Dir::State "$2/apt/state";
+Dir::State::status "$2/apt/status";
+Dir::Cache "$2/apt/cache";
+C
+  export APT_CONFIG=$2/apt/apt.conf
+  apt-get update -qq
+}
+
+# unpack_own FOLDER TREE: unpacks what own_apt's apt-get got into TREE.
+unpack_own() {
+  local package
+  for package in "$1"/apt/cache/archives/*.deb; do dpkg -x "$package" "$2"; done
+  rm -r "$1/apt"
 }
 
 # choose_tools: Ninja and ccache where they are, one compiler for C++ and nvcc; CMake reads these when it makes a new build folder.

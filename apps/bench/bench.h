@@ -34,38 +34,18 @@ struct BenchMap {
 /// start near its upper right corner. Throws StartupError.
 [[nodiscard]] BenchMap scaled_map(const std::filesystem::path& file, std::int32_t side);
 
-/// Shortest ways and harmonic potentials as textbooks have them, on free cells that are inflated beforehand at no cost.
-class BenchRivals {
- public:
-  /// `free`: width x height, 1 where a robot may be. Takes all memory.
-  BenchRivals(std::int32_t width, std::int32_t height, std::vector<std::uint8_t> free);
+/// Metres a cell of every map.
+inline constexpr double kBenchCell_m = 0.1;
 
-  /// Steps to the goal over four neighbours, breadth first.
-  void wavefront(CellIndex goal);
-  /// Distance to the goal over eight neighbours (10 straight, 14 diagonal), by a ring of buckets.
-  void dijkstra_buckets(CellIndex goal);
-  /// The same by a binary heap.
-  void dijkstra_heap(CellIndex goal);
-  /// The paper's recipe: 100 red-black sweeps of the harmonic potential from 0.5, single precision.
-  void hundred_sweeps(CellIndex goal);
+[[nodiscard]] inline Vec2 middle_of(CellIndex cell) {
+  return {(cell.i + 0.5) * kBenchCell_m, (cell.j + 0.5) * kBenchCell_m};
+}
 
-  /// Distance of a cell as the last of the first three methods found it; negative where there is no way.
-  [[nodiscard]] std::int32_t distance(CellIndex at) const { return distance_[index(at)]; }
+/// The map as a robot in its middle holds it; `of_free`: evidence of cells without a wall.
+[[nodiscard]] EvidenceMap evidence_of(const BenchMap& map, int of_free);
 
- private:
-  [[nodiscard]] std::size_t index(CellIndex at) const {
-    return static_cast<std::size_t>(at.j) * static_cast<std::size_t>(stride_) + static_cast<std::size_t>(at.i);
-  }
-  /// Calls visit(cell, cost) for each of the eight neighbours that is free, corners not cut.
-  template <class Visit>
-  void for_each_step(std::size_t from, const Visit& visit) const;
-
-  std::int32_t width_, height_, stride_;  ///< a ring of cells round the map is not free
-  std::vector<std::uint8_t> free_;
-  std::vector<std::int32_t> distance_;
-  std::vector<std::uint32_t> queue_;
-  std::vector<float> phi_;
-};
+/// A pedestrian's track, numbered from 0.
+[[nodiscard]] Track walker_at(std::size_t number, Vec2 place, Vec2 velocity);
 
 struct Timing {
   std::string what;
@@ -73,28 +53,39 @@ struct Timing {
   std::string backend;
 };
 
-/// Times `work`. On the CPU processor time of this one thread: what other programs take meanwhile does not count. On a
-/// device wall time, submission and waiting included.
-template <class Work>
-Timing time(const char* what, int repeats, const std::string& backend, const Work& work) {
+/// Times `work` by a clock that gives ms.
+template <class Work, class Clock>
+Timing time(const char* what, int repeats, const std::string& backend, const Work& work, const Clock& now_ms) {
   Distribution took_ms;
   for (int k = 0; k < repeats; ++k) {
-    const std::clock_t ticks = std::clock();
-    const auto begin = std::chrono::steady_clock::now();
+    const double before_ms = now_ms();
     work();
-    const std::chrono::duration<double, std::milli> wall_ms = std::chrono::steady_clock::now() - begin;
-    took_ms.add(backend == "cpu" ? 1e3 * static_cast<double>(std::clock() - ticks) / CLOCKS_PER_SEC : wall_ms.count());
+    took_ms.add(now_ms() - before_ms);
   }
   return {what, took_ms.quantile(0.5), took_ms.quantile(0.99), backend};
 }
 
+/// Times `work` on the CPU by processor time of this one thread: what other programs take meanwhile does not count. On
+/// a device by wall time, submission and waiting included.
+template <class Work>
+Timing time(const char* what, int repeats, const std::string& backend, const Work& work) {
+  const auto begin = std::chrono::steady_clock::now();
+  return time(what, repeats, backend, work, [&] {
+    const std::chrono::duration<double, std::milli> wall_ms = std::chrono::steady_clock::now() - begin;
+    return backend == "cpu" ? 1e3 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC : wall_ms.count();
+  });
+}
+
+/// Times shortest ways and harmonic potentials as textbooks have them, on free cells that are inflated beforehand at no
+/// cost.
+[[nodiscard]] std::vector<Timing> time_rivals(const BenchMap& map, int repeats);
+
 /// Times decisions on motion alone, of a P3-DX under way at the map's start among `movers` bodies within 8 m that walk
 /// on from scan to scan: belief, futures, trajectories, choice. No seeing, no guide.
-[[nodiscard]] Timing time_decision(const BenchMap& map, double cell_m, int movers, int repeats);
+[[nodiscard]] Timing time_decision(const BenchMap& map, int movers, int repeats);
 
 /// Times whole ticks that each have a new scan, of 811 beams over 270 degrees: seeing, planning and acting, by a robot
 /// that stands at the map's start while `walkers` go on from where they are. A simulated laser sees them and the walls.
-[[nodiscard]] Timing time_tick(const BenchMap& map, double cell_m, std::span<const Track> walkers, Backend backend,
-                               int repeats);
+[[nodiscard]] Timing time_tick(const BenchMap& map, std::span<const Track> walkers, Backend backend, int repeats);
 
 }  // namespace jaywalk

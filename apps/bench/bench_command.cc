@@ -1,5 +1,4 @@
 #include <array>
-#include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -25,7 +24,6 @@ struct BenchOptions {
 
 BenchOptions bench_options;
 
-constexpr double kCell_m = 0.1;
 constexpr int kDecisions = 101;
 constexpr std::int32_t kTickCells = 256;  // what a loop sees around it
 
@@ -34,41 +32,28 @@ std::array<Track, 8> walkers(double side_m) {
   std::array<Track, 8> tracks{};
   for (std::size_t k = 0; k < tracks.size(); ++k) {
     const double share = (static_cast<double>(k) + 0.5) / static_cast<double>(tracks.size());
-    tracks[k].id = static_cast<std::uint32_t>(k + 1);
-    tracks[k].position_in_map = {side_m * share, side_m * (1.0 - 0.5 * share)};
-    tracks[k].velocity_in_map = {k % 2 == 0 ? 0.4 : -0.4, 0.2};
-    tracks[k].covariance = {0.001, 0.0, 0.002};
-    tracks[k].radius_m = 0.27;
+    tracks[k] = walker_at(k, {side_m * share, side_m * (1.0 - 0.5 * share)}, {k % 2 == 0 ? 0.4 : -0.4, 0.2});
   }
   return tracks;
 }
 
-/// Planner to measure: that of the robot, or the paper's.
-enum class PlanOf { kTimeToGo, kPotential };
-
-/// The whole plan under way: robot and eight movers move on from tick to tick. By the time to go they are bodies that
-/// are no walls, half of them such as ways past are preferred to.
-Timing time_plan(const BenchMap& map, PlanOf what, Backend backend, int repeats) {
+/// The whole plan under way, of the robot's planner or, `by_potential`, of the paper's: robot and eight movers move on
+/// from tick to tick. By the time to go they are bodies that are no walls, half of them such as ways past are preferred
+/// to.
+Timing time_plan(const BenchMap& map, bool by_potential, Backend backend, int repeats) {
   const std::int32_t side = map.cells.width;
   paper::PaperConfig config;
   config.side_cells = config.max_side_cells = side;
-  const bool by_potential = what == PlanOf::kPotential;
   const auto chosen = by_potential ? make_paper_planner(config, backend) : make_planner(config, backend);
   Planner& planner = *chosen.planner;
-  const double middle_m = side * kCell_m / 2.0;
-  EvidenceMap evidence(2 * side, kCell_m, {middle_m, middle_m});
-  for (std::int32_t j = 0; j < side; ++j) {
-    for (std::int32_t i = 0; i < side; ++i) {
-      const auto c = static_cast<std::size_t>(j) * static_cast<std::size_t>(side) + static_cast<std::size_t>(i);
-      if (map.cells.wall[c] != 0) evidence.add({i, j}, EvidenceMap::kMax);
-    }
-  }
+  const EvidenceMap evidence = evidence_of(map, 0);
+  const Vec2 start = middle_of(map.start);
   PlanRequest request;
   request.still = &evidence;
   request.speed_mps = 0.6;
-  request.goal_in_map = {(map.goal.i + 0.5) * kCell_m, (map.goal.j + 0.5) * kCell_m};
-  request.map_from_robot = {(map.start.i + 0.5) * kCell_m, (map.start.j + 0.5) * kCell_m, 0.0};
-  std::array<Track, 8> tracks = walkers(side * kCell_m);
+  request.goal_in_map = middle_of(map.goal);
+  request.map_from_robot = {start.x, start.y, 0.0};
+  std::array<Track, 8> tracks = walkers(side * kBenchCell_m);
   std::array<MoverDisc, tracks.size()> bodies;
   std::array<StandingPedestrian, tracks.size() / 2> standing;
   if (by_potential)
@@ -88,18 +73,6 @@ Timing time_plan(const BenchMap& map, PlanOf what, Backend backend, int repeats)
     planner.submit(request);
     (void)planner.collect();
   });
-}
-
-/// The same work by the device's own events, as often as its quantiles want.
-template <class Work>
-Timing time_on_device(const char* what, int repeats, const paper::MapField& field, const Work& work) {
-  Distribution took_ms;
-  for (int k = 0; k < repeats; ++k) {
-    const double before_ms = field.device_ms();
-    work();
-    took_ms.add(field.device_ms() - before_ms);
-  }
-  return {what, took_ms.quantile(0.5), took_ms.quantile(0.99), field.backend()};
 }
 
 class Bench {
@@ -122,29 +95,29 @@ class Bench {
     field.inflate(kBenchInflation);
     paper::MapQuality quality;
     bool certified = true;
-    std::vector<Timing> own{time("cold solve", repeats, field.backend(), [&] {
+    const auto cold = [&] {
       quality = field.solve_cold(map.goal);
       certified &= quality.certified;
-    })};
+    };
+    const auto warm = [&] { certified &= field.solve_warm(map.goal).certified; };
+    std::vector<Timing> own{time("cold solve", repeats, field.backend(), cold)};
     progress_.make_way();
     std::printf("%s, %d: reach %.4f, %d cycles, best neighbours %s\n", map.name.c_str(), map.cells.width,
                 static_cast<double>(field.reach(map.goal)), quality.cycles, best_neighbours(field, map.goal).c_str());
-    own.push_back(
-        time("warm solve", repeats, field.backend(), [&] { certified &= field.solve_warm(map.goal).certified; }));
-    if (backend == Backend::kCuda) {
+    own.push_back(time("warm solve", repeats, field.backend(), warm));
+    if (backend == Backend::kCuda) {  // by the device's own events, as often as their quantiles want
       constexpr int kEventRepeats = 1000;
-      own.push_back(time_on_device("cold, by events", kEventRepeats, field,
-                                   [&] { certified &= field.solve_cold(map.goal).certified; }));
-      own.push_back(time_on_device("warm, by events", kEventRepeats, field,
-                                   [&] { certified &= field.solve_warm(map.goal).certified; }));
+      const auto events_ms = [&] { return field.device_ms(); };
+      own.push_back(time("cold, by events", kEventRepeats, field.backend(), cold, events_ms));
+      own.push_back(time("warm, by events", kEventRepeats, field.backend(), warm, events_ms));
     }
-    if (map.cells.width <= 1024) own.push_back(time_plan(map, PlanOf::kPotential, backend, repeats));
-    if (map.cells.width <= 1024 && backend == Backend::kCpu)
-      own.push_back(time_plan(map, PlanOf::kTimeToGo, backend, repeats));
+    for (const bool by_potential : {true, false})
+      if (map.cells.width <= 1024 && (by_potential || backend == Backend::kCpu))
+        own.push_back(time_plan(map, by_potential, backend, repeats));
     if (map.cells.width <= kTickCells) {
-      own.push_back(time_tick(map, kCell_m, walkers(map.cells.width * kCell_m), backend, repeats));
+      own.push_back(time_tick(map, walkers(map.cells.width * kBenchCell_m), backend, repeats));
       if (backend == Backend::kCpu)
-        for (const int movers : {16, 64}) own.push_back(time_decision(map, kCell_m, movers, kDecisions));
+        for (const int movers : {16, 64}) own.push_back(time_decision(map, movers, kDecisions));
     }
     for (const Timing& timing : own)
       for (const Timing& rival : rivals) add(map, timing, rival);
@@ -157,21 +130,6 @@ class Bench {
   static std::string best_neighbours(const paper::MapField& field, CellIndex goal) {
     const std::optional<double> best = field.best_neighbours(goal, paper::kMostMultiplications);
     return best ? std::to_string(100.0 * *best) + " %" : "not counted (too many cells)";
-  }
-
-  static std::vector<Timing> time_rivals(const BenchMap& map, int repeats) {
-    const std::int32_t side = map.cells.width;
-    const auto field = paper::make_cpu_map_field(map.cells);
-    field->inflate(kBenchInflation);
-    (void)field->solve_start(map.goal);
-    std::vector<std::uint8_t> free;
-    for (std::int32_t j = 0; j < side; ++j)
-      for (std::int32_t i = 0; i < side; ++i) free.push_back(std::isnan(field->psi(i, j)) ? 0 : 1);
-    BenchRivals rivals(side, side, std::move(free));
-    return {time("wavefront", repeats, "cpu", [&] { rivals.wavefront(map.goal); }),
-            time("dijkstra, buckets", repeats, "cpu", [&] { rivals.dijkstra_buckets(map.goal); }),
-            time("dijkstra, heap", repeats, "cpu", [&] { rivals.dijkstra_heap(map.goal); }),
-            time("100 sweeps", repeats, "cpu", [&] { rivals.hundred_sweeps(map.goal); })};
   }
 
   void add(const BenchMap& map, const Timing& own, const Timing& baseline) {
@@ -203,15 +161,11 @@ std::vector<BenchMap> all_maps(const BenchOptions& options) {
   return maps;
 }
 
-/// Before minutes of measuring, and without harm to what the file holds.
-void refuse_unwritable(const std::filesystem::path& file) {
-  if (!std::ofstream(file, std::ios::app))
-    throw StartupError(file.string() + ": cannot be written", "choose another --json");
-}
-
 int run_bench(const BenchOptions& options) {
   const std::vector<BenchMap> maps = all_maps(options);
-  if (options.json) refuse_unwritable(*options.json);
+  // Before minutes of measuring, and without harm to what the file holds.
+  if (options.json && !std::ofstream(*options.json, std::ios::app))
+    throw StartupError(options.json->string() + ": cannot be written", "choose another --json");
   std::printf("%-19s %-15s %5s  %-4s %9s %9s  %-18s %7s\n", "what", "map", "size", "on", "p50_ms", "p99_ms", "baseline",
               "ratio");
   Bench bench;

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <functional>
 #include <optional>
 #include <queue>
@@ -81,6 +82,118 @@ BenchMap clutter(std::int32_t side) {
 constexpr std::int32_t kNoWay = -1;
 constexpr std::int32_t kStraight = 10, kDiagonal = 14;
 
+/// Shortest ways and harmonic potentials as textbooks have them, on a map's free cells.
+class BenchRivals {
+ public:
+  /// Takes all memory.
+  explicit BenchRivals(const BenchMap& map)
+      : side_(map.cells.width), stride_(static_cast<std::size_t>(side_) + 2), goal_(index(map.goal)) {
+    const auto field = paper::make_cpu_map_field(map.cells);
+    field->inflate(kBenchInflation);
+    (void)field->solve_start(map.goal);
+    for (std::int32_t j = 0; j < side_; ++j)
+      for (std::int32_t i = 0; i < side_; ++i) free_[index({i, j})] = std::isnan(field->psi(i, j)) ? 0 : 1;
+  }
+
+  /// Steps to the goal over four neighbours, breadth first.
+  void wavefront() {
+    std::fill(distance_.begin(), distance_.end(), kNoWay);
+    const auto stride = static_cast<std::uint32_t>(stride_);
+    std::size_t head = 0, tail = 0;
+    queue_[tail++] = static_cast<std::uint32_t>(goal_);
+    distance_[goal_] = 0;
+    while (head < tail) {
+      const std::uint32_t c = queue_[head++];
+      for (const std::uint32_t n : {c + 1, c - 1, c + stride, c - stride}) {
+        if (free_[n] == 0 || distance_[n] != kNoWay) continue;
+        distance_[n] = distance_[c] + 1;
+        queue_[tail++] = n;
+      }
+    }
+  }
+
+  /// Distance to the goal over eight neighbours (10 straight, 14 diagonal), by a ring of buckets.
+  void dijkstra_buckets() {
+    std::fill(distance_.begin(), distance_.end(), kNoWay);
+    std::array<std::vector<std::uint32_t>, 16> ring;  // more than the dearest step
+    distance_[goal_] = 0;
+    ring[0].push_back(static_cast<std::uint32_t>(goal_));
+    std::size_t queued = 1;
+    for (std::int32_t reached = 0; queued > 0; ++reached) {
+      std::vector<std::uint32_t>& bucket = ring[static_cast<std::size_t>(reached % 16)];
+      for (const std::uint32_t c : bucket) {
+        if (distance_[c] != reached) continue;  // found a shorter way meanwhile
+        go_on(c, [&](std::int32_t through, std::uint32_t n) {
+          ring[static_cast<std::size_t>(through % 16)].push_back(n);
+          ++queued;
+        });
+      }
+      queued -= bucket.size();
+      bucket.clear();
+    }
+  }
+
+  /// The same by a binary heap.
+  void dijkstra_heap() {
+    using Entry = std::pair<std::int32_t, std::uint32_t>;
+    std::fill(distance_.begin(), distance_.end(), kNoWay);
+    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> heap;
+    distance_[goal_] = 0;
+    heap.emplace(0, static_cast<std::uint32_t>(goal_));
+    while (!heap.empty()) {
+      const auto [reached, c] = heap.top();
+      heap.pop();
+      if (distance_[c] == reached) go_on(c, [&](std::int32_t through, std::uint32_t n) { heap.emplace(through, n); });
+    }
+  }
+
+  /// The paper's recipe: 100 red-black sweeps of the harmonic potential from 0.5, single precision.
+  void hundred_sweeps() {
+    for (std::size_t c = 0; c < phi_.size(); ++c) phi_[c] = free_[c] != 0 ? 0.5F : 1.0F;
+    phi_[goal_] = 0.0F;
+    for (std::int32_t half = 0; half < 200; ++half) {
+      for (std::int32_t j = 0; j < side_; ++j) {
+        for (std::int32_t i = (j + 1 + half) & 1; i < side_; i += 2) {
+          const std::size_t c = index({i, j});
+          if (free_[c] == 0 || c == goal_) continue;
+          phi_[c] = 0.25F * ((phi_[c + 1] + phi_[c - 1]) + (phi_[c + stride_] + phi_[c - stride_]));
+        }
+      }
+    }
+  }
+
+ private:
+  [[nodiscard]] std::size_t index(CellIndex at) const {
+    return static_cast<std::size_t>(at.j + 1) * stride_ + static_cast<std::size_t>(at.i + 1);
+  }
+  /// Offers the way through `from` to each of its eight neighbours that is free, corners not cut: push(distance, cell)
+  /// for those that it is shorter for.
+  template <class Push>
+  void go_on(std::size_t from, const Push& push) {
+    const std::size_t east = from + 1, west = from - 1, north = from + stride_, south = from - stride_;
+    const auto offer = [&, reached = distance_[from]](std::size_t n, std::int32_t cost) {
+      const std::int32_t through = reached + cost;
+      if (distance_[n] != kNoWay && distance_[n] <= through) return;
+      distance_[n] = through;
+      push(through, static_cast<std::uint32_t>(n));
+    };
+    for (const std::size_t n : {east, west, north, south})
+      if (free_[n] != 0) offer(n, kStraight);
+    const auto corner = [&](std::size_t n, std::size_t a, std::size_t b) {
+      if (free_[n] != 0 && free_[a] != 0 && free_[b] != 0) offer(n, kDiagonal);
+    };
+    corner(north + 1, north, east), corner(north - 1, north, west);
+    corner(south + 1, south, east), corner(south - 1, south, west);
+  }
+
+  std::int32_t side_;
+  std::size_t stride_, goal_;  ///< a ring of cells round the map is not free
+  std::vector<std::uint8_t> free_ = std::vector<std::uint8_t>(stride_ * stride_, 0);
+  std::vector<std::int32_t> distance_ = std::vector<std::int32_t>(free_.size());
+  std::vector<std::uint32_t> queue_ = std::vector<std::uint32_t>(free_.size());
+  std::vector<float> phi_ = std::vector<float>(free_.size());
+};
+
 }  // namespace
 
 std::vector<BenchMap> bench_maps(std::int32_t side) {
@@ -106,110 +219,35 @@ BenchMap scaled_map(const std::filesystem::path& file, std::int32_t side) {
   return map;
 }
 
-BenchRivals::BenchRivals(std::int32_t width, std::int32_t height, std::vector<std::uint8_t> free)
-    : width_(width), height_(height), stride_(width + 2) {
-  const auto cells = static_cast<std::size_t>(stride_) * static_cast<std::size_t>(height + 2);
-  // The ring lies at column and row -1, which is the last column of the row before: one row of spare cells in front.
-  free_.assign(cells + static_cast<std::size_t>(stride_) + 1, 0);
-  for (std::int32_t j = 0; j < height; ++j) {
-    for (std::int32_t i = 0; i < width; ++i) {
-      free_[index({i + 1, j + 1})] =
-          free[static_cast<std::size_t>(j) * static_cast<std::size_t>(width) + static_cast<std::size_t>(i)];
+EvidenceMap evidence_of(const BenchMap& map, int of_free) {
+  const std::int32_t side = map.cells.width;
+  const double middle_m = 0.5 * side * kBenchCell_m;
+  EvidenceMap evidence(2 * side, kBenchCell_m, {middle_m, middle_m});
+  for (std::int32_t j = 0; j < side; ++j) {
+    for (std::int32_t i = 0; i < side; ++i) {
+      const bool wall = map.cells.wall[static_cast<std::size_t>(j * side + i)] != 0;
+      evidence.add({i, j}, wall ? EvidenceMap::kMax : of_free);
     }
   }
-  distance_.resize(free_.size());
-  queue_.resize(free_.size());
-  phi_.resize(free_.size());
+  return evidence;
 }
 
-void BenchRivals::wavefront(CellIndex goal) {
-  std::fill(distance_.begin(), distance_.end(), kNoWay);
-  const auto stride = static_cast<std::uint32_t>(stride_);
-  std::size_t head = 0, tail = 0;
-  queue_[tail++] = static_cast<std::uint32_t>(index({goal.i + 1, goal.j + 1}));
-  distance_[queue_[0]] = 0;
-  while (head < tail) {
-    const std::uint32_t c = queue_[head++];
-    for (const std::uint32_t n : {c + 1, c - 1, c + stride, c - stride}) {
-      if (free_[n] == 0 || distance_[n] != kNoWay) continue;
-      distance_[n] = distance_[c] + 1;
-      queue_[tail++] = n;
-    }
-  }
+Track walker_at(std::size_t number, Vec2 place, Vec2 velocity) {
+  Track track;
+  track.id = static_cast<std::uint32_t>(number + 1);
+  track.position_in_map = place;
+  track.velocity_in_map = velocity;
+  track.covariance = {0.001, 0.0, 0.002};
+  track.radius_m = 0.27;
+  return track;
 }
 
-template <class Visit>
-void BenchRivals::for_each_step(std::size_t from, const Visit& visit) const {
-  const auto stride = static_cast<std::size_t>(stride_);
-  const std::size_t east = from + 1, west = from - 1, north = from + stride, south = from - stride;
-  for (const std::size_t n : {east, west, north, south})
-    if (free_[n] != 0) visit(n, kStraight);
-  const auto corner = [&](std::size_t n, std::size_t a, std::size_t b) {
-    if (free_[n] != 0 && free_[a] != 0 && free_[b] != 0) visit(n, kDiagonal);
-  };
-  corner(north + 1, north, east), corner(north - 1, north, west);
-  corner(south + 1, south, east), corner(south - 1, south, west);
-}
-
-void BenchRivals::dijkstra_buckets(CellIndex goal) {
-  std::fill(distance_.begin(), distance_.end(), kNoWay);
-  std::array<std::vector<std::uint32_t>, 16> ring;  // more than the dearest step
-  const std::size_t first = index({goal.i + 1, goal.j + 1});
-  distance_[first] = 0;
-  ring[0].push_back(static_cast<std::uint32_t>(first));
-  std::size_t queued = 1;
-  for (std::int32_t reached = 0; queued > 0; ++reached) {
-    std::vector<std::uint32_t>& bucket = ring[static_cast<std::size_t>(reached % 16)];
-    for (const std::uint32_t c : bucket) {
-      if (distance_[c] != reached) continue;  // found a shorter way meanwhile
-      for_each_step(c, [&](std::size_t n, std::int32_t cost) {
-        const std::int32_t through = reached + cost;
-        if (distance_[n] != kNoWay && distance_[n] <= through) return;
-        distance_[n] = through;
-        ring[static_cast<std::size_t>(through % 16)].push_back(static_cast<std::uint32_t>(n));
-        ++queued;
-      });
-    }
-    queued -= bucket.size();
-    bucket.clear();
-  }
-}
-
-void BenchRivals::dijkstra_heap(CellIndex goal) {
-  using Entry = std::pair<std::int32_t, std::uint32_t>;
-  std::fill(distance_.begin(), distance_.end(), kNoWay);
-  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> heap;
-  const std::size_t first = index({goal.i + 1, goal.j + 1});
-  distance_[first] = 0;
-  heap.emplace(0, static_cast<std::uint32_t>(first));
-  while (!heap.empty()) {
-    const auto [reached, c] = heap.top();
-    heap.pop();
-    if (distance_[c] != reached) continue;
-    const std::int32_t here = reached;
-    for_each_step(c, [&](std::size_t n, std::int32_t cost) {
-      const std::int32_t through = here + cost;
-      if (distance_[n] != kNoWay && distance_[n] <= through) return;
-      distance_[n] = through;
-      heap.emplace(through, static_cast<std::uint32_t>(n));
-    });
-  }
-}
-
-void BenchRivals::hundred_sweeps(CellIndex goal) {
-  const auto stride = static_cast<std::size_t>(stride_);
-  for (std::size_t c = 0; c < phi_.size(); ++c) phi_[c] = free_[c] != 0 ? 0.5F : 1.0F;
-  const std::size_t at_goal = index({goal.i + 1, goal.j + 1});
-  phi_[at_goal] = 0.0F;
-  for (std::int32_t half = 0; half < 200; ++half) {
-    for (std::int32_t j = 1; j <= height_; ++j) {
-      for (std::int32_t i = 1 + ((j + half) & 1); i <= width_; i += 2) {
-        const std::size_t c = index({i, j});
-        if (free_[c] == 0 || c == at_goal) continue;
-        phi_[c] = 0.25F * ((phi_[c + 1] + phi_[c - 1]) + (phi_[c + stride] + phi_[c - stride]));
-      }
-    }
-  }
+std::vector<Timing> time_rivals(const BenchMap& map, int repeats) {
+  BenchRivals rivals(map);
+  return {time("wavefront", repeats, "cpu", [&] { rivals.wavefront(); }),
+          time("dijkstra, buckets", repeats, "cpu", [&] { rivals.dijkstra_buckets(); }),
+          time("dijkstra, heap", repeats, "cpu", [&] { rivals.dijkstra_heap(); }),
+          time("100 sweeps", repeats, "cpu", [&] { rivals.hundred_sweeps(); })};
 }
 
 }  // namespace jaywalk

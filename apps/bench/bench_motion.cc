@@ -17,63 +17,36 @@ constexpr double kScan_s = 1.0 / 15.0;
 constexpr double kWithin_m = 8.0;
 constexpr int kDecisionsBefore = 15;  // decisions: by then every mover is known to walk
 
-EvidenceMap evidence_of(const BenchMap& map, double cell_m) {
-  const std::int32_t side = map.cells.width;
-  EvidenceMap evidence(2 * side, cell_m, {0.5 * side * cell_m, 0.5 * side * cell_m});
-  for (std::int32_t j = 0; j < side; ++j) {
-    for (std::int32_t i = 0; i < side; ++i) {
-      const bool wall = map.cells.wall[static_cast<std::size_t>(j * side + i)] != 0;
-      evidence.add({i, j}, wall ? EvidenceMap::kMax : EvidenceMap::kMin);
-    }
-  }
-  return evidence;
-}
-
-/// The k-th of places spread evenly over a disc: radii by the square root, angles by the golden one.
-Vec2 spread(int k, int of, Vec2 middle) {
-  const double radius = kWithin_m * sqrt((k + 0.5) / of);
-  return middle + direction(2.39996 * k) * radius;
-}
-
+/// Spread evenly over a disc: radii by the square root, angles by the golden one.
 std::vector<Track> walkers_round(Vec2 middle, int count) {
-  std::vector<Track> tracks(static_cast<std::size_t>(count));
+  std::vector<Track> tracks;
   for (int k = 0; k < count; ++k) {
-    Track& t = tracks[static_cast<std::size_t>(k)];
-    t.id = static_cast<std::uint32_t>(k + 1);
-    t.position_in_map = spread(k, count, middle);
-    t.velocity_in_map = direction(1.7 * k) * 0.4;
-    t.covariance = {0.001, 0.0, 0.002};
-    t.radius_m = 0.27;
-    t.moving = t.is_pedestrian = true;
+    const Vec2 place = middle + direction(2.39996 * k) * (kWithin_m * sqrt((k + 0.5) / count));
+    tracks.push_back(walker_at(static_cast<std::size_t>(k), place, direction(1.7 * k) * 0.4));
+    tracks.back().moving = tracks.back().is_pedestrian = true;
   }
   return tracks;
 }
 
 constexpr int kTicksBefore = 50;  // ticks: by then walkers are confirmed
 
-sim::Walls walls_of(const BenchMap& map, double cell_m) {
-  sim::WallMap walls;
-  walls.raster = {{}, cell_m, map.cells.width, map.cells.height, map.cells.wall};
-  walls.segments = sim::edges_of(walls.raster);
-  return sim::Walls(std::move(walls));
-}
-
-Vec2 middle(CellIndex cell, double cell_m) { return {(cell.i + 0.5) * cell_m, (cell.j + 0.5) * cell_m}; }
-
-ControlSetup setup_at(const BenchMap& map, double cell_m) {
+ControlSetup setup_at(const BenchMap& map) {
   ControlSetup setup;
   setup.model = p3dx();
   setup.model.laser.rate_hz = setup.rate_hz;
-  const Vec2 start = middle(map.start, cell_m);
-  setup.goal = middle(map.goal, cell_m);
+  const Vec2 start = middle_of(map.start);
+  setup.goal = middle_of(map.goal);
   setup.start = {start.x, start.y, atan2(setup.goal.y - start.y, setup.goal.x - start.x)};
   return setup;
 }
 
 /// Scans of all ticks, made before the timing begins.
-std::vector<LaserScan> scans_of(const BenchMap& map, double cell_m, std::span<const Track> walkers,
-                                const ControlSetup& setup, int ticks) {
-  const sim::Walls walls = walls_of(map, cell_m);
+std::vector<LaserScan> scans_of(const BenchMap& map, std::span<const Track> walkers, const ControlSetup& setup,
+                                int ticks) {
+  sim::WallMap drawn;
+  drawn.raster = {{}, kBenchCell_m, map.cells.width, map.cells.height, map.cells.wall};
+  drawn.segments = sim::edges_of(drawn.raster);
+  const sim::Walls walls(std::move(drawn));
   sim::LaserSim laser(setup.model.laser, 1);
   std::vector<LaserScan> scans(static_cast<std::size_t>(ticks));
   std::vector<sim::Disc> discs(walkers.size());
@@ -89,21 +62,21 @@ std::vector<LaserScan> scans_of(const BenchMap& map, double cell_m, std::span<co
 
 }  // namespace
 
-Timing time_decision(const BenchMap& map, double cell_m, int movers, int repeats) {
+Timing time_decision(const BenchMap& map, int movers, int repeats) {
   const RobotModel model = p3dx();
   PlannerConfig config;
   config.side_cells = config.max_side_cells = map.cells.width;
   config.body = model.footprint;
   const auto planner = make_cpu_planner(config);
-  const EvidenceMap evidence = evidence_of(map, cell_m);
-  const auto middle = [cell_m](CellIndex c) { return Vec2{(c.i + 0.5) * cell_m, (c.j + 0.5) * cell_m}; };
-  const Vec2 start = middle(map.start), goal = middle(map.goal);
-  const Pose2 pose{start.x, start.y, atan2(goal.y - start.y, goal.x - start.x)};
+  const EvidenceMap evidence = evidence_of(map, EvidenceMap::kMin);
+  const ControlSetup setup = setup_at(map);
+  const Pose2 pose = setup.start;
+  const Vec2 goal = setup.goal;
   planner->submit(
       {.map_from_robot = pose, .goal_in_map = goal, .speed_mps = model.limits.max_speed_mps, .still = &evidence});
   const auto plan = std::make_unique<Plan>(planner->collect());
   const auto motion = motion::make_motion({.model = model});
-  std::vector<Track> tracks = walkers_round(start, movers);
+  std::vector<Track> tracks = walkers_round(pose.position(), movers);
   const auto scan = std::make_unique<LaserScan>();
   OperatorInput input;
   input.has_goal = true;
@@ -129,9 +102,9 @@ Timing time_decision(const BenchMap& map, double cell_m, int movers, int repeats
   return time(("decision, " + std::to_string(movers)).c_str(), repeats, "cpu", decide);
 }
 
-Timing time_tick(const BenchMap& map, double cell_m, std::span<const Track> walkers, Backend backend, int repeats) {
-  const ControlSetup setup = setup_at(map, cell_m);
-  const std::vector<LaserScan> scans = scans_of(map, cell_m, walkers, setup, kTicksBefore + repeats);
+Timing time_tick(const BenchMap& map, std::span<const Track> walkers, Backend backend, int repeats) {
+  const ControlSetup setup = setup_at(map);
+  const std::vector<LaserScan> scans = scans_of(map, walkers, setup, kTicksBefore + repeats);
   const auto devices = std::make_unique<TickRecord>();
   devices->input.has_goal = true;
   devices->input.goal_in_map = setup.goal;

@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <csignal>
 #include <cstring>
+#include <regex>
 #include <utility>
 
 #include "hal/maps/wall_map.h"
@@ -23,7 +24,7 @@ using enum KeyKind;
 
 constexpr double kMostSeeds = 1e6;
 
-std::optional<SeedRange> read_seeds(TomlTable& table) {
+std::optional<std::pair<std::uint64_t, std::uint64_t>> read_seeds(TomlTable& table) {
   if (!table.has("seeds")) return std::nullopt;
   const std::vector<double> seeds = table.numbers("seeds", 2);
   const bool whole = std::all_of(seeds.begin(), seeds.end(), [](double seed) {
@@ -31,14 +32,13 @@ std::optional<SeedRange> read_seeds(TomlTable& table) {
   });
   if (!whole || seeds[1] < seeds[0] || seeds[1] - seeds[0] >= kMostSeeds)
     table.refuse("seeds", "is no range of seeds", "write [first, last], whole numbers, at most a million seeds");
-  return SeedRange{static_cast<std::uint64_t>(seeds[0]), static_cast<std::uint64_t>(seeds[1])};
+  return std::pair{static_cast<std::uint64_t>(seeds[0]), static_cast<std::uint64_t>(seeds[1])};
 }
 
 /// Names become folders.
 std::string read_name(TomlTable& table) {
-  constexpr const char* kLetters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-";
   std::string name = table.text("name");
-  if (name.empty() || name.find_first_not_of(kLetters) != std::string::npos)
+  if (!std::regex_match(name, std::regex("[A-Za-z0-9_-]+")))
     table.refuse("name", "is no name of a folder", "use letters, digits, - and _");
   return name;
 }
@@ -74,11 +74,10 @@ Experiment read_experiment(TomlTable& table) {
 }
 
 void refuse_equal_names(const std::vector<Experiment>& experiments) {
-  for (const Experiment& one : experiments) {
-    for (const Experiment& other : experiments)
-      if (&one < &other && one.name == other.name)
-        throw StartupError(other.place + "experiments.name " + one.name + " is there already", "give it another name");
-  }
+  std::set<std::string> names;
+  for (const Experiment& one : experiments)
+    if (!names.insert(one.name).second)
+      throw StartupError(one.place + "experiments.name " + one.name + " is there already", "give it another name");
 }
 
 constexpr std::size_t kMostRuns = 10'000'000;
@@ -103,8 +102,8 @@ std::vector<Combination> combinations_of(const std::vector<Axis>& axes) {
 
 /// Letters that a name of a folder may have; a path's own become '_'.
 std::string folder_part(std::string text) {
-  std::replace_if(
-      text.begin(), text.end(), [](char c) { return c == '/' || c == '\\' || c == ' '; }, '_');
+  std::ranges::replace_if(
+      text, [](char c) { return c == '/' || c == '\\' || c == ' '; }, '_');
   return text;
 }
 
@@ -118,13 +117,6 @@ std::string row_of(const Experiment& experiment, const Combination& values, cons
   return row.empty() ? "all" : row;
 }
 
-std::vector<std::string> settings_of(const Experiment& experiment, const Combination& values) {
-  std::vector<std::string> settings;
-  for (std::size_t k = 0; k < values.size(); ++k)
-    if (!experiment.axes[k].is_option) settings.push_back(experiment.axes[k].name + "=" + values[k]);
-  return settings;
-}
-
 bool names_file(const std::string& axis) {
   const std::vector<SettingKey>& keys = sim::scenario_keys().keys;
   return std::any_of(keys.begin(), keys.end(), [&](const SettingKey& key) {
@@ -132,12 +124,14 @@ bool names_file(const std::string& axis) {
   });
 }
 
-/// As they are in the campaign file's folder, for a process that works elsewhere.
-std::vector<std::string> settings_from(const std::filesystem::path& folder, std::vector<std::string> settings) {
-  for (std::string& setting : settings) {
-    const std::size_t equals = setting.find('=');
-    const std::string axis = setting.substr(0, equals);
-    if (names_file(axis)) setting = axis + "=" + (folder / setting.substr(equals + 1)).string();
+/// KEY=VALUE each. `folder`: the campaign file's, to which names of files are relative; empty for a process in it.
+std::vector<std::string> settings_of(const Experiment& experiment, const Combination& values,
+                                     const std::filesystem::path& folder) {
+  std::vector<std::string> settings;
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    const std::string& axis = experiment.axes[k].name;
+    if (experiment.axes[k].is_option) continue;
+    settings.push_back(axis + "=" + (names_file(axis) ? (folder / values[k]).string() : values[k]));
   }
   return settings;
 }
@@ -148,45 +142,51 @@ std::vector<std::string> arguments_of(const Experiment& experiment, const Combin
   for (std::size_t k = 0; k < values.size(); ++k)
     if (experiment.axes[k].is_option) arguments.insert(arguments.end(), {"--" + experiment.axes[k].name, values[k]});
   if (experiment.constant_speed) arguments.push_back("--constant-speed");
-  for (const std::string& setting : settings_of(experiment, values)) {
-    arguments.push_back("--set");
-    arguments.push_back(setting);
-  }
+  for (const std::string& setting : settings_of(experiment, values, ""))
+    arguments.insert(arguments.end(), {"--set", setting});
   return arguments;
 }
 
 /// Where the campaign file says what a refusal of `setting` is about.
 std::string place_of(const Experiment& experiment, const std::string& refusal) {
   for (const Axis& axis : experiment.axes)
-    if (refusal.rfind("--set " + axis.name + "=", 0) == 0) return axis.place + "experiments.set ";
+    if (refusal.starts_with(kGivenPlace + axis.name + "=")) return axis.place + "experiments.set ";
   return experiment.place;
 }
 
 sim::Scenario scenario_for(const Campaign& campaign, const Experiment& experiment, const std::string& scenario,
-                           const std::vector<std::string>& settings) {
+                           const Combination& values) {
   try {
     const std::filesystem::path folder = campaign.file.parent_path();
-    return sim::load_scenario(folder / scenario, settings_from(folder, settings));
+    return sim::load_scenario(folder / scenario, settings_of(experiment, values, folder));
   } catch (const StartupError& refusal) {
     const std::string text = refusal.what(), place = place_of(experiment, text);
-    const bool set = place != experiment.place;
-    const std::size_t remedy = text.rfind("; ");
-    throw StartupError(place + text.substr(set ? std::strlen("--set ") : 0, remedy - (set ? std::strlen("--set ") : 0)),
-                       text.substr(remedy + 2));
+    const std::size_t begin = place == experiment.place ? 0 : std::strlen(kGivenPlace), remedy = text.rfind("; ");
+    throw StartupError(place + text.substr(begin, remedy - begin), text.substr(remedy + 2));
   }
+}
+
+std::string command_of(const PlannedRun& run) {
+  std::string command = "jaywalk";
+  for (const std::string& word : run.arguments) {
+    const bool plain = word.find_first_of(" $`\"\\*?&;|<>()") == std::string::npos;
+    command += " " + (plain ? word : "'" + word + "'");
+  }
+  return command + " --out " + "out/" + run.folder;
 }
 
 /// `own_seed`: the scenario's.
 void add_seeds(const Experiment& experiment, std::uint64_t own_seed, const PlannedRun& without_seed,
                std::vector<PlannedRun>& runs) {
-  const SeedRange seeds = experiment.seeds.value_or(SeedRange{own_seed, own_seed});
-  if (runs.size() + (seeds.last - seeds.first) >= kMostRuns)
+  const auto [first, last] = experiment.seeds.value_or(std::pair{own_seed, own_seed});
+  if (runs.size() + (last - first) >= kMostRuns)
     throw StartupError(experiment.place + "more than ten million runs", "divide the campaign");
-  for (std::uint64_t seed = seeds.first; seed <= seeds.last; ++seed) {
+  for (std::uint64_t seed = first; seed <= last; ++seed) {
     PlannedRun run = without_seed;
     run.seed = seed;
     run.folder += "/" + std::to_string(seed);
     run.arguments.insert(run.arguments.end(), {"--seed", std::to_string(seed)});
+    run.command = command_of(run);
     runs.push_back(std::move(run));
   }
 }
@@ -199,12 +199,11 @@ void note_inputs(const std::filesystem::path& file, const sim::Scenario& scenari
 }
 
 void refuse_equal_folders(const Campaign& campaign, const std::vector<PlannedRun>& runs) {
-  std::map<std::string, const PlannedRun*> seen;
-  for (const PlannedRun& run : runs) {
-    if (!seen.emplace(run.folder, &run).second)
+  std::set<std::string> seen;
+  for (const PlannedRun& run : runs)
+    if (!seen.insert(run.folder).second)
       throw StartupError(campaign.file.string() + ": two runs are called " + run.folder,
                          "give scenarios of one experiment different file names, and each value once");
-  }
 }
 
 constexpr int kNotStarted = 127;
@@ -247,8 +246,8 @@ Campaign load_campaign(const std::filesystem::path& path) {
   TomlTable root = file.root();
   Campaign campaign;
   campaign.file = path;
-  campaign.name = root.text("name", path.stem().string());
-  campaign.title = root.text("title", campaign.name);
+  const std::string name = root.text("name", path.stem().string());
+  campaign.title = root.text("title", name);
   if (root.has("keep")) campaign.keep = static_cast<Keep>(root.choice("keep"));  // choices in the enumeration's order
   for (TomlTable& table : root.tables("experiments")) campaign.experiments.push_back(read_experiment(table));
   root.finish();
@@ -263,13 +262,12 @@ Plan plan_of(const Campaign& campaign) {
   for (const Experiment& experiment : campaign.experiments) {
     for (const Combination& values : combinations_of(experiment.axes)) {
       for (const std::string& scenario : experiment.scenarios) {
-        const sim::Scenario read = scenario_for(campaign, experiment, scenario, settings_of(experiment, values));
+        const sim::Scenario read = scenario_for(campaign, experiment, scenario, values);
         note_inputs(campaign.file.parent_path() / scenario, read, plan.inputs);
         const std::string stem = std::filesystem::path(scenario).stem().string();
         const std::string row = folder_part(row_of(experiment, values, "=", ","));
         add_seeds(experiment, read.seed,
-                  {.experiment = experiment.name,
-                   .row = row_of(experiment, values, " ", ", "),
+                  {.row = row_of(experiment, values, " ", ", "),
                    .values = values,
                    .scenario = stem,
                    .folder = experiment.name + "/" + row + "/" + folder_part(stem),
@@ -283,18 +281,6 @@ Plan plan_of(const Campaign& campaign) {
   refuse_equal_folders(campaign, plan.runs);
   return plan;
 }
-
-std::string command_of(const PlannedRun& run) {
-  std::string command = "jaywalk";
-  for (const std::string& word : run.arguments) {
-    const bool plain = word.find_first_of(" $`\"\\*?&;|<>()") == std::string::npos;
-    command += " " + (plain ? word : "'" + word + "'");
-  }
-  return command + " --out " + "out/" + run.folder;
-}
-
-RunPool::RunPool(std::filesystem::path program, std::filesystem::path folder)
-    : program_(std::move(program)), folder_(std::move(folder)) {}
 
 void RunPool::start(std::size_t index, const PlannedRun& run, const std::filesystem::path& out) {
   const std::string said = (out / "said.txt").string();

@@ -8,6 +8,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "hal/setting_keys.h"
@@ -23,16 +24,12 @@ struct Axis {
   bool is_option = false;  ///< of jaywalk sim, not a key of the scenario
 };
 
-struct SeedRange {
-  std::uint64_t first = 1, last = 1;
-};
-
 /// Every scenario with every seed, for each combination of the axes' values.
 struct Experiment {
-  std::string name;                    ///< of its folder, too
-  std::string title;                   ///< for the report
-  std::vector<std::string> scenarios;  ///< as the file has them: relative to its folder
-  std::optional<SeedRange> seeds;      ///< without it each scenario's own
+  std::string name;                                              ///< of its folder, too
+  std::string title;                                             ///< for the report
+  std::vector<std::string> scenarios;                            ///< as the file has them: relative to its folder
+  std::optional<std::pair<std::uint64_t, std::uint64_t>> seeds;  ///< first, last; without them each scenario's own
   bool constant_speed = false;
   std::vector<Axis> axes;  ///< the first changes slowest
   std::string place;       ///< "paper.toml:3: "
@@ -43,7 +40,7 @@ enum class Keep { kFigures, kFailures, kAll };
 
 struct Campaign {
   std::filesystem::path file;
-  std::string name, title;
+  std::string title;
   Keep keep = Keep::kFailures;
   std::vector<Experiment> experiments;
 };
@@ -57,13 +54,13 @@ struct Campaign {
 
 /// One run of a campaign.
 struct PlannedRun {
-  std::string experiment;
   std::string row;  ///< the values of the axes that vary, in words: "movers.count 16, mode paper"; else "all"
   std::vector<std::string> values;  ///< of the experiment's axes
   std::string scenario;             ///< the file's name without its end
   std::uint64_t seed = 0;
   std::string folder;                  ///< below the campaign's: "movers/movers.count=16/map1_16/101"
   std::vector<std::string> arguments;  ///< of jaywalk in the campaign file's folder, without --out
+  std::string command = {};            ///< "jaywalk sim ... --out DIR": repeats it, in the campaign file's folder
   Vec2 goal;                           ///< in the map, m
   double cruise_mps = 0.0;             ///< the robot's greatest speed
 };
@@ -78,9 +75,6 @@ struct Plan {
 /// that is refused, and where two runs would have the same folder.
 [[nodiscard]] Plan plan_of(const Campaign& campaign);
 
-/// "jaywalk sim ... --out DIR": what repeats a run, in the campaign file's folder.
-[[nodiscard]] std::string command_of(const PlannedRun& run);
-
 /// Runs, each a process of its own, so that one that crashes takes no other with it. They end with this process,
 /// however it ends. Thread: the one that made it.
 class RunPool {
@@ -91,7 +85,8 @@ class RunPool {
   };
 
   /// `program`: jaywalk; `folder`: where its arguments' paths begin.
-  RunPool(std::filesystem::path program, std::filesystem::path folder);
+  RunPool(std::filesystem::path program, std::filesystem::path folder)
+      : program_(std::move(program)), folder_(std::move(folder)) {}
   ~RunPool() { kill_all(); }
   RunPool(const RunPool&) = delete;
   RunPool& operator=(const RunPool&) = delete;

@@ -7,32 +7,39 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cinttypes>
 #include <cstdint>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <set>
+#include <tuple>
 
-#include "apps/campaign/statistics.h"
 #include "hal/shown_text.h"
 #include "hal/text_file.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk::campaign {
+
+// As campaign.json has them, for nlohmann::json.
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(PlannedRun, row, values, scenario, seed, folder, cruise_mps, command)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ReportedExperiment, name, title, axes, scenarios, runs)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ReportedCampaign, title, program, experiments)
+
 namespace {
 
 using Json = nlohmann::ordered_json;
 
 std::string digest_of(const std::set<std::filesystem::path>& inputs) {
-  std::vector<std::string> all;
-  for (const std::filesystem::path& input : inputs) all.push_back(input.filename().string() + digest_of_file(input));
-  std::sort(all.begin(), all.end());  // folders may be called otherwise elsewhere
+  std::multiset<std::string> all;  // in the order of names: folders may be called otherwise elsewhere
+  for (const std::filesystem::path& input : inputs) all.insert(input.filename().string() + digest_of_file(input));
   std::string text;
   for (const std::string& one : all) text += one + "\n";
   return digest_of_text(text);
 }
 
 Json json_of(const PlannedRun& run) {
-  return {{"row", run.row},       {"values", run.values},         {"scenario", run.scenario},  {"seed", run.seed},
-          {"folder", run.folder}, {"cruise_mps", run.cruise_mps}, {"command", command_of(run)}};
+  return {{"row", run.row},       {"values", run.values},         {"scenario", run.scenario}, {"seed", run.seed},
+          {"folder", run.folder}, {"cruise_mps", run.cruise_mps}, {"command", run.command}};
 }
 
 Json json_of(const Experiment& experiment, const std::vector<PlannedRun>& all) {
@@ -40,36 +47,12 @@ Json json_of(const Experiment& experiment, const std::vector<PlannedRun>& all) {
   for (const Axis& axis : experiment.axes) axes.push_back(axis.name);
   Json runs = Json::array();
   for (const PlannedRun& run : all) {
-    if (run.experiment != experiment.name) continue;
+    if (!run.folder.starts_with(experiment.name + "/")) continue;
     runs.push_back(json_of(run));
-    if (std::find(scenarios.begin(), scenarios.end(), run.scenario) == scenarios.end())
-      scenarios.push_back(run.scenario);
+    if (std::ranges::count(scenarios, run.scenario) == 0) scenarios.push_back(run.scenario);
   }
   return {
       {"name", experiment.name}, {"title", experiment.title}, {"axes", axes}, {"scenarios", scenarios}, {"runs", runs}};
-}
-
-void read_run(const Json& j, ReportedExperiment& experiment) {
-  PlannedRun run;
-  run.experiment = experiment.name;
-  run.row = j.at("row").get<std::string>();
-  run.values = j.at("values").get<std::vector<std::string>>();
-  run.scenario = j.at("scenario").get<std::string>();
-  run.seed = j.at("seed").get<std::uint64_t>();
-  run.folder = j.at("folder").get<std::string>();
-  run.cruise_mps = j.at("cruise_mps").get<double>();
-  experiment.runs.push_back(std::move(run));
-  experiment.commands.push_back(j.at("command").get<std::string>());
-}
-
-ReportedExperiment read_experiment(const Json& j) {
-  ReportedExperiment experiment;
-  experiment.name = j.at("name").get<std::string>();
-  experiment.title = j.at("title").get<std::string>();
-  experiment.axes = j.at("axes").get<std::vector<std::string>>();
-  experiment.scenarios = j.at("scenarios").get<std::vector<std::string>>();
-  for (const Json& run : j.at("runs")) read_run(run, experiment);
-  return experiment;
 }
 
 constexpr std::uint64_t kOffset = 0xcbf29ce484222325U, kPrime = 0x100000001b3U;
@@ -79,12 +62,7 @@ std::uint64_t mixed(std::uint64_t hash, std::string_view bytes) {
   return hash;
 }
 
-std::string hexadecimal(std::uint64_t hash) {
-  constexpr std::string_view kDigits = "0123456789abcdef";
-  std::string text(16, '0');
-  for (std::size_t k = 16; k-- > 0; hash /= 16U) text[k] = kDigits[hash % 16U];
-  return text;
-}
+std::string hexadecimal(std::uint64_t hash) { return formatted("%016" PRIx64, hash); }
 
 /// The program's last error line, without the path of the run's folder: that path differs between shards.
 std::string last_words(const std::filesystem::path& folder) {
@@ -101,20 +79,7 @@ RunResult without_run(const std::filesystem::path& folder, const std::string& ou
   RunResult result;
   result.outcome = outcome;
   result.reason = how + ": " + last_words(folder);
-  result.at_s = kUnknown;
   return result;
-}
-
-void add_figures(const Json& summary, const std::filesystem::path& folder, RunResult& result) {
-  for (const auto& [name, value] : summary.items())
-    if (value.is_number()) result.figures[name] = value.get<double>();
-  result.turns = summary.at("turn_histogram").get<std::array<std::uint32_t, kTurnBins>>();
-  const Ride ride = ride_of(folder / "robot.csv");
-  result.figures["steering_reversals"] = ride.steering_reversals;
-  result.figures["speed_reversals"] = ride.speed_reversals;
-  result.figures["stood_share"] = ride.stood_share;
-  result.figures["hard_brakes"] = ride.hard_brakes;
-  result.figures["calm_jerk_p99_mps3"] = ride.calm_jerk_p99_mps3;
 }
 
 constexpr std::array kKeptOfAll{"run.json", "summary.json", "run.svg"};
@@ -136,12 +101,10 @@ void make_folders(const std::filesystem::path& folder) {
 }
 
 void prune(const std::filesystem::path& folder) {
-  std::vector<std::filesystem::path> others;
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-    const std::string name = entry.path().filename().string();
-    if (std::find(kKeptOfAll.begin(), kKeptOfAll.end(), name) == kKeptOfAll.end()) others.push_back(entry.path());
-  }
-  for (const std::filesystem::path& other : others) std::filesystem::remove_all(other);
+  const std::vector<std::filesystem::path> all(std::filesystem::directory_iterator(folder), {});
+  for (const std::filesystem::path& file : all)
+    if (std::find(kKeptOfAll.begin(), kKeptOfAll.end(), file.filename()) == kKeptOfAll.end())
+      std::filesystem::remove_all(file);
 }
 
 }  // namespace
@@ -159,13 +122,8 @@ std::string plan_text(const Campaign& campaign, const Plan& plan, const std::fil
 ReportedCampaign read_plan(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   try {
-    const Json j = Json::parse(in);
-    ReportedCampaign campaign;
-    campaign.title = j.at("title").get<std::string>();
-    campaign.program = j.at("program").get<std::string>();
-    for (const Json& experiment : j.at("experiments")) campaign.experiments.push_back(read_experiment(experiment));
-    return campaign;
-  } catch (const Json::exception&) {
+    return nlohmann::json::parse(in).get<ReportedCampaign>();
+  } catch (const nlohmann::json::exception&) {
     throw StartupError(file.string() + ": is no campaign.json of this program", "give the folder of a campaign");
   }
 }
@@ -196,12 +154,12 @@ RunResult result_of(const PlannedRun& run, const std::filesystem::path& folder, 
   result.outcome = summary.at("outcome").get<std::string>();
   result.success = summary.at("success").get<bool>();
   result.robot_csv = digest_of_file(folder / "robot.csv");
-  result.at_s = kUnknown;
-  add_figures(summary, folder, result);
+  for (const auto& [name, value] : summary.items())
+    if (value.is_number()) result.figures[name] = value.get<double>();
+  result.turns = summary.at("turn_histogram").get<std::array<std::uint32_t, kTurnBins>>();
+  result.figures.merge(ride_of(folder / "robot.csv"));
   if (result.success) return result;
-  const FailureWords words = failure_words(run, result.outcome, folder);
-  result.reason = words.reason;
-  result.at_s = words.at_s;
+  std::tie(result.at_s, result.reason) = failure_words(run, result.outcome, folder);
   return result;
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "apps/campaign/campaign.h"
+#include "apps/campaign/statistics.h"
 #include "apps/report/drive_metrics.h"
 
 namespace jaywalk::campaign {
@@ -17,8 +18,7 @@ struct ReportedExperiment {
   std::string name, title;
   std::vector<std::string> axes;       ///< names
   std::vector<std::string> scenarios;  ///< without folder and end
-  std::vector<PlannedRun> runs;        ///< with experiment, row, values, scenario, seed, folder and cruise_mps alone
-  std::vector<std::string> commands;   ///< of the runs
+  std::vector<PlannedRun> runs;        ///< without arguments and goal
 };
 
 struct ReportedCampaign {
@@ -40,12 +40,12 @@ struct ReportedCampaign {
 
 /// Result of one run, as its run.json has it. Where that is, the run is over.
 struct RunResult {
-  std::string outcome;    ///< summary.json's; "crashed" or "refused" where the program did not get so far
-  bool success = false;   ///< by the strict rule
-  std::string reason;     ///< of a failure, in words
-  double at_s = 0.0;      ///< its decisive moment on the run's clock; NaN where there is none
-  std::string robot_csv;  ///< digest of the table
-  std::map<std::string, double> figures;  ///< those of summary.json and of Ride that are numbers, by name
+  std::string outcome;     ///< summary.json's; "crashed" or "refused" where the program did not get so far
+  bool success = false;    ///< by the strict rule
+  std::string reason;      ///< of a failure, in words
+  double at_s = kUnknown;  ///< its decisive moment on the run's clock; NaN where there is none
+  std::string robot_csv;   ///< digest of the table
+  std::map<std::string, double> figures;  ///< those of summary.json and ride_of() that are numbers, by name
   std::array<std::uint32_t, kTurnBins> turns{};
 
   /// The robot reached the goal; it may have forced a mover on the way.
@@ -109,29 +109,15 @@ void write_whole(const std::filesystem::path& file, const std::string& text, con
 
 // Ride figures and failure cause of a run, read from its tables.
 
-/// Above every model's comfort and below every model's braking; changes are taken over 0.1 s, as Smoothness does.
-inline constexpr double kHardBrake_mps2 = 0.7;
+/// Ride comfort of a run, from robot.csv, as RunResult::figures has it. steering_reversals, speed_reversals: how often
+/// the robot turned or drove one way, and then the other; stood_share: of its ticks, slower than 0.05 m/s; hard_brakes:
+/// how often it slowed down by more than 0.7 m/s2; calm_jerk_p99_mps3: 99th percentile of the jerk without them, NaN
+/// where nothing is left. Throws StartupError where there is no such table.
+[[nodiscard]] std::map<std::string, double> ride_of(const std::filesystem::path& robot_csv);
 
-/// Ride comfort of a run, from robot.csv.
-struct Ride {
-  double steering_reversals = 0.0;  ///< how often the robot turned one way, and then the other
-  double speed_reversals = 0.0;     ///< how often it drove one way, and then the other
-  double stood_share = 0.0;         ///< of its ticks: slower than 0.05 m/s
-  double hard_brakes = 0.0;         ///< how often it slowed down by more than kHardBrake_mps2
-  double calm_jerk_p99_mps3 = 0.0;  ///< 99th percentile of the jerk without them; NaN where nothing is left
-};
-
-/// Throws StartupError where there is no such table.
-[[nodiscard]] Ride ride_of(const std::filesystem::path& robot_csv);
-
-struct FailureWords {
-  double at_s = 0.0;   ///< the decisive moment
-  std::string reason;  ///< "mover 7 had to turn: ..."
-};
-
-/// Why the run in `folder` came to `outcome`, which is no success, from its tables. Throws StartupError where they are
-/// not there.
-[[nodiscard]] FailureWords failure_words(const PlannedRun& run, const std::string& outcome,
-                                         const std::filesystem::path& folder);
+/// When (s) and why the run in `folder` came to `outcome`, which is no success, from its tables: the decisive moment,
+/// and "mover 7 had to turn: ...". Throws StartupError where they are not there.
+[[nodiscard]] std::pair<double, std::string> failure_words(const PlannedRun& run, const std::string& outcome,
+                                                           const std::filesystem::path& folder);
 
 }  // namespace jaywalk::campaign

@@ -1,11 +1,14 @@
 #include <algorithm>
-#include <charconv>
+#include <array>
 #include <cmath>
+#include <numeric>
 #include <set>
+#include <utility>
 
 #include "apps/campaign/report.h"
 #include "apps/campaign/statistics.h"
 #include "apps/report/markup.h"
+#include "hal/shown_text.h"
 #include "hal/types/geometry.h"
 
 namespace jaywalk::campaign {
@@ -13,18 +16,15 @@ namespace {
 
 constexpr const char* kMovers = "movers.count";
 
-double number_of(const std::string& word) {
-  double value = 0.0;
-  std::from_chars(word.data(), word.data() + word.size(), value);
-  return value;
-}
+/// Movers, and success (%) that the paper reports on its own maps: time-warped grids, table "Percentage of success in
+/// path planning".
+constexpr std::array<std::pair<double, double>, 6> kPaper{{{1, 95}, {2, 95}, {4, 92.5}, {8, 87.5}, {12, 80}, {16, 75}}};
 
 /// Name of a line: its experiment, and the values of the other axes that vary.
 std::string line_name(const ReportedTables& tables, const ReportedRow& row, std::size_t movers) {
   std::string name;
   for (std::size_t k = 0; k < row.values.size(); ++k) {
-    const bool varies = std::any_of(tables.rows.begin(), tables.rows.end(),
-                                    [&](const ReportedRow& other) { return other.values[k] != row.values[k]; });
+    const bool varies = std::ranges::any_of(tables.rows, [&](const auto& r) { return r.values[k] != row.values[k]; });
     if (k != movers && varies) name += ", " + tables.experiment->axes[k] + " " + row.values[k];
   }
   return tables.experiment->title + name;
@@ -32,7 +32,7 @@ std::string line_name(const ReportedTables& tables, const ReportedRow& row, std:
 
 SuccessPoint point_of(const ReportedRow& row, std::size_t movers) {
   const auto good = std::count_if(row.runs.begin(), row.runs.end(), [](const auto& r) { return r.result.success; });
-  return {number_of(row.values[movers]), static_cast<std::size_t>(good), row.runs.size()};
+  return {number_in<double>(row.values[movers]).value_or(0.0), static_cast<std::size_t>(good), row.runs.size()};
 }
 
 /// "11 of 12" of the points with so many movers (several where the same number stands twice in a line).
@@ -44,8 +44,8 @@ std::string cell_of(const SuccessLine& line, double movers) {
 }
 
 std::string papers_cell(double movers) {
-  const auto point = std::find_if(kPaper.begin(), kPaper.end(), [&](const auto& p) { return p.movers == movers; });
-  return point == kPaper.end() ? "-" : fixed(point->percent, 1) + " %";
+  const auto point = std::ranges::find(kPaper, movers, &std::pair<double, double>::first);
+  return point == kPaper.end() ? "-" : fixed(point->second, 1) + " %";
 }
 
 constexpr std::array kColours{"#0a6e8a", "#c2410c", "#4d7c0f", "#7c3aed", "#eab308", "#be185d", "#334155", "#0f766e"};
@@ -79,13 +79,19 @@ double x_of(double movers) {
 
 double y_of(double share) { return kTop + kHigh * (1.0 - share); }
 
-/// Text that a browser shows while the pointer is on an element.
+/// A text shown while the pointer is on an element.
 std::string hover(const std::string& text) { return "<title>" + as_markup(text) + "</title>"; }
 
+std::string circle(Vec2 at, int radius, const std::string& colour, bool open, const std::string& said,
+                   const char* rim = "") {
+  return "<circle cx=\"" + fixed(at.x, 1) + "\" cy=\"" + fixed(at.y, 1) + "\" r=\"" + std::to_string(radius) +
+         "\" fill=\"" + (open ? "#fff" : colour) + "\" stroke=\"" + colour + "\"" + rim + ">" + hover(said) +
+         "</circle>\n";
+}
+
 std::string dot(double movers, double share, const std::string& colour, bool open, const std::string& said) {
-  return "<circle cx=\"" + fixed(x_of(movers), 1) + "\" cy=\"" + fixed(y_of(share), 1) + "\" r=\"5\" fill=\"" +
-         (open ? "#fff" : colour) + "\" stroke=\"" + colour + "\" stroke-width=\"2\">" +
-         hover(said + ", " + fixed(movers, 0) + " movers: " + fixed(100.0 * share, 1) + " %") + "</circle>\n";
+  return circle({x_of(movers), y_of(share)}, 5, colour, open,
+                said + ", " + fixed(movers, 0) + " movers: " + fixed(100.0 * share, 1) + " %", " stroke-width=\"2\"");
 }
 
 std::string success_axes() {
@@ -130,12 +136,13 @@ Vec2 foot_of(std::size_t panel) {
           (kPanelHigh + 60.0) * static_cast<double>(panel / kAcross) + 20.0 + kPanelHigh};
 }
 
-/// 1, 2 or 5 times a power of ten: a quarter of `most` or the next larger.
-double step_of(double most) {
-  const double tenfold = std::pow(10.0, std::floor(std::log10(most / 4.0)));
-  for (const double step : {tenfold, 2.0 * tenfold, 5.0 * tenfold})
-    if (step >= most / 4.0) return step;
-  return 10.0 * tenfold;
+/// A run of `row` of the tables.
+std::string lost_dot(double x, double y, std::size_t row, const std::string& name, const ReportedRun& run) {
+  const double lost_s = time_lost_s(run);
+  const bool arrived = !std::isnan(lost_s);
+  return circle(
+      {x, y}, 4, kColours[row % kColours.size()], !arrived,
+      name + ", seed " + std::to_string(run.run->seed) + ": " + (arrived ? fixed(lost_s, 1) : "did not arrive"));
 }
 
 }  // namespace
@@ -182,18 +189,20 @@ std::string success_chart(const std::vector<SuccessLine>& lines) {
     out += line_through(lines[k], colour) + line_of(kLeft, y - 4.0, kLeft + 24.0, y - 4.0, colour, 2.0) +
            text_at(kLeft + 32.0, y, lines[k].name, "start");
   }
-  for (const PaperPoint& point : kPaper) out += dot(point.movers, point.percent / 100.0, "#111", true, "the paper");
+  for (const auto& [movers, percent] : kPaper) out += dot(movers, percent / 100.0, "#111", true, "the paper");
   return out + text_at(kLeft + 12.0, y, "o", "middle") +
          text_at(kLeft + 32.0, y, "the paper, on its own maps", "start") + "</svg>\n";
 }
 
-std::string turn_chart(const std::vector<TurnBars>& all) {
+std::string turn_chart(const std::vector<ReportedRow>& rows) {
   constexpr double kBar = kPanelWide / static_cast<double>(kTurnBins), kTenfolds = 4.0;
-  std::string out = opened_panels(all.size());
-  for (std::size_t k = 0; k < all.size(); ++k) {
+  std::string out = opened_panels(rows.size());
+  for (std::size_t k = 0; k < rows.size(); ++k) {
     const auto [x, foot] = foot_of(k);
+    const std::vector<double> turns = turns_of(rows[k]);
+    const double all = std::accumulate(turns.begin(), turns.end(), 0.0);
     for (std::size_t bin = 0; bin < kTurnBins; ++bin) {
-      const double share = all[k].shares[bin];
+      const double share = all > 0.0 ? turns[bin] / all : 0.0;
       const double high = share > 0.0 ? kPanelHigh * std::max(0.02, 1.0 + std::log10(share) / kTenfolds) : 0.0;
       out += "<rect x=\"" + fixed(x + kBar * static_cast<double>(bin), 1) + "\" y=\"" + fixed(foot - high, 1) +
              "\" width=\"" + fixed(kBar - 1.0, 1) + "\" height=\"" + fixed(high, 1) + "\" fill=\"#0a6e8a\">" +
@@ -207,33 +216,34 @@ std::string turn_chart(const std::vector<TurnBars>& all) {
              text_at(x - 6.0, y + 4.0, fixed(100.0 * std::pow(10.0, -tenfold), tenfold == 4 ? 2 : 0) + " %", "end");
     }
     out += line_of(x, foot, x + kPanelWide, foot, "#333") + text_at(x, foot + 14.0, "0") +
-           text_at(x + kPanelWide, foot + 14.0, "180") + text_at(x + kPanelWide / 2.0, foot + 30.0, all[k].name);
+           text_at(x + kPanelWide, foot + 14.0, "180") + text_at(x + kPanelWide / 2.0, foot + 30.0, rows[k].name);
   }
   return out + "</svg>\n";
 }
 
-std::string map_chart(const std::vector<MapPanel>& panels) {
-  double most = 1.0, rows = 1.0;
-  for (const MapPanel& panel : panels)
-    for (const MapPanel::Run& run : panel.runs)
-      most = std::fmax(most, run.value), rows = std::max(rows, static_cast<double>(run.row + 1));
-  const double step = step_of(most), top = step * std::ceil(most / step);
-  std::string out = opened_panels(panels.size());
-  for (std::size_t k = 0; k < panels.size(); ++k) {
+std::string map_chart(const ReportedTables& tables) {
+  const std::vector<std::string>& maps = tables.experiment->scenarios;
+  if (maps.size() < 2 || maps.size() > kMostColumns) return "";
+  double most = 1.0, columns = 1.0;
+  for (std::size_t row = 0; row < tables.rows.size(); ++row)
+    for (const ReportedRun& run : tables.rows[row].runs)
+      most = std::fmax(most, time_lost_s(run)), columns = static_cast<double>(row + 1);
+  const double step = round_length(most / 4.0), top = step * std::ceil(most / step);
+  std::string out = opened_panels(maps.size());
+  for (std::size_t k = 0; k < maps.size(); ++k) {
     const Vec2 foot = foot_of(k);
     const auto y_at = [&](double value) { return foot.y - kPanelHigh * std::clamp(value / top, 0.0, 1.0); };
     for (double tick = 0.0; tick < top + step / 2.0; tick += step)
       out += line_of(foot.x, y_at(tick), foot.x + kPanelWide, y_at(tick), "#ccc") +
              text_at(foot.x - 6.0, y_at(tick) + 4.0, fixed(tick, step < 1.0 ? 1 : 0), "end");
-    for (const MapPanel::Run& run : panels[k].runs) {
-      const std::string colour = kColours[run.row % kColours.size()];
-      const bool arrived = !std::isnan(run.value);
-      out += "<circle cx=\"" + fixed(foot.x + kPanelWide * (static_cast<double>(run.row) + 0.5) / rows, 1) +
-             "\" cy=\"" + fixed(arrived ? y_at(run.value) : foot.y - kPanelHigh, 1) + "\" r=\"4\" fill=\"" +
-             (arrived ? colour : "#fff") + "\" stroke=\"" + colour + "\">" +
-             hover(run.said + ": " + (arrived ? fixed(run.value, 1) : "did not arrive")) + "</circle>\n";
+    for (std::size_t row = 0; row < tables.rows.size(); ++row) {
+      const double x = foot.x + kPanelWide * (static_cast<double>(row) + 0.5) / columns;
+      for (const ReportedRun& run : tables.rows[row].runs)
+        if (run.run->scenario == maps[k])
+          out += lost_dot(x, std::isnan(time_lost_s(run)) ? foot.y - kPanelHigh : y_at(time_lost_s(run)), row,
+                          tables.rows[row].name, run);
     }
-    out += text_at(foot.x + kPanelWide / 2.0, foot.y + 20.0, panels[k].map);
+    out += text_at(foot.x + kPanelWide / 2.0, foot.y + 20.0, maps[k]);
   }
   return out + "</svg>\n";
 }

@@ -1,7 +1,12 @@
 #include "apps/campaign/report.h"
 
+#include <openssl/evp.h>
+
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
+#include <regex>
+#include <sstream>
 
 #include "apps/campaign/statistics.h"
 #include "apps/report/markup.h"
@@ -52,15 +57,10 @@ document.querySelectorAll('th').forEach(head => head.onclick = () => {
 
 /// RFC 4648.
 std::string base64(const std::string& bytes) {
-  constexpr const char* kLetters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string out;
-  for (std::size_t k = 0; k < bytes.size(); k += 3) {
-    unsigned triple = 0;
-    for (std::size_t j = 0; j < 3; ++j)
-      triple = triple << 8U | (k + j < bytes.size() ? static_cast<unsigned char>(bytes[k + j]) : 0U);
-    for (std::size_t j = 0; j < 4; ++j)
-      out += k + j <= bytes.size() ? kLetters[triple >> (18U - 6U * static_cast<unsigned>(j)) & 63U] : '=';
-  }
+  std::string out(4 * ((bytes.size() + 2) / 3) + 1, '\0');
+  ::EVP_EncodeBlock(reinterpret_cast<unsigned char*>(out.data()), reinterpret_cast<const unsigned char*>(bytes.data()),
+                    static_cast<int>(bytes.size()));
+  out.pop_back();  // a zero behind it
   return out;
 }
 
@@ -72,33 +72,18 @@ std::string cells(const std::vector<std::string>& row, const std::string& kind) 
 
 /// RFC 4180.
 std::string csv_of(const ReportTable& table) {
-  std::string out;
+  std::ostringstream out;
   const auto add = [&out](const std::vector<std::string>& row) {
-    for (std::size_t k = 0; k < row.size(); ++k) {
-      std::string cell = row[k];
-      for (std::size_t at = cell.find('"'); at != std::string::npos; at = cell.find('"', at + 2))
-        cell.insert(at, 1, '"');
-      out += (k == 0 ? "\"" : ",\"") + cell + "\"";
-    }
-    out += "\r\n";
+    for (std::size_t k = 0; k < row.size(); ++k) out << (k == 0 ? "" : ",") << std::quoted(row[k], '"', '"');
+    out << "\r\n";
   };
   add(table.head);
   for (const auto& row : table.rows) add(row);
-  return out;
+  return out.str();
 }
 
 /// Letters and digits of a title, words apart by '_'.
-std::string file_name(const std::string& title) {
-  std::string out;
-  for (const char c : title) {
-    const bool is_word = (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
-    if (is_word)
-      out += c;
-    else if (!out.empty() && out.back() != '_')
-      out += '_';
-  }
-  return out;
-}
+std::string file_name(const std::string& title) { return std::regex_replace(title, std::regex("[^0-9A-Za-z]+"), "_"); }
 
 /// `folders`: the first cells link to folders of the campaign's.
 std::string table_of(const ReportTable& table, bool folders = false) {
@@ -113,21 +98,8 @@ std::string table_of(const ReportTable& table, bool folders = false) {
          base64(csv_of(table)) + "\">CSV</a></p>\n";
 }
 
-std::string runs_of(const ReportTable& runs) {
-  return "<details><summary>" + std::to_string(runs.rows.size()) + " runs, a row each</summary>\n" +
-         table_of(runs, true) + "</details>\n";
-}
-
-std::string cards_of(const std::vector<ReportCard>& cards) {
-  std::string out = "<div class=\"cards\">\n";
-  for (const ReportCard& card : cards)
-    out += "<div><b>" + as_markup(card.figure) + "</b>" + as_markup(card.what) + "</div>\n";
-  return out + "</div>\n";
-}
-
 std::string section_of(const ReportSection& section) {
   std::string out = "<h2>" + as_markup(section.title) + "</h2>\n";
-  if (!section.text.empty()) out += "<p>" + as_markup(section.text) + "</p>\n";
   for (const ReportChart& chart : section.charts)
     out += "<figure>\n" + chart.svg + "<figcaption>" + as_markup(chart.title) + "</figcaption>\n</figure>\n";
   for (const ReportTable& table : section.tables) out += table_of(table);
@@ -144,16 +116,10 @@ std::string failure_of(const ReportFailure& failure) {
   return out + "</article>\n";
 }
 
-/// A '|' would end a cell.
-std::string cell_of(const std::string& text) {
-  std::string out;
-  for (const char c : text) out += c == '|' ? std::string("\\|") : std::string(1, c);
-  return out;
-}
-
+/// A '|' in a cell would end it.
 std::string cells(const std::vector<std::string>& row) {
   std::string out = "|";
-  for (const std::string& cell : row) out += " " + cell_of(cell) + " |";
+  for (const std::string& cell : row) out += " " + std::regex_replace(cell, std::regex("\\|"), "\\|") + " |";
   return out + "\n";
 }
 
@@ -167,7 +133,6 @@ std::string table_in_markdown(const ReportTable& table) {
 
 std::string section_in_markdown(const ReportSection& section) {
   std::string out = "## " + section.title + "\n\n";
-  if (!section.text.empty()) out += section.text + "\n\n";
   for (const ReportChart& chart : section.charts) out += "![" + chart.title + "](charts/" + chart.name + ".svg)\n\n";
   for (const ReportTable& table : section.tables) out += table_in_markdown(table);
   return out;
@@ -181,69 +146,72 @@ std::string failure_of(const ReportFailure& failure, std::size_t number) {
   return out;
 }
 
-std::vector<TurnBars> turn_bars(const ReportedTables& tables) {
-  std::vector<TurnBars> all;
-  for (const ReportedRow& row : tables.rows) {
-    TurnBars bars{row.name, {}};
-    double sum = 0.0;
-    for (const ReportedRun& run : row.runs)
-      for (std::size_t k = 0; k < kTurnBins; ++k) bars.shares[k] += run.result.turns[k], sum += run.result.turns[k];
-    for (double& share : bars.shares) share = sum > 0.0 ? share / sum : 0.0;
-    all.push_back(bars);
-  }
-  return all;
-}
-
 ReportFailure failure_of(const ReportedRun& run) {
   const bool moment = std::isfinite(run.result.at_s);
-  ReportFailure failure;
-  failure.run = run.run->folder;
-  failure.what =
-      run.result.outcome + (moment ? " at " + fixed(run.result.at_s, 2) + " s" : "") + ": " + run.result.reason;
-  failure.repeat = *run.command;
-  if (moment) failure.why = "jaywalk why out/" + run.run->folder + " " + fixed(run.result.at_s, 2) + " --out out/why";
-  failure.svg = text_in(run.folder / "run.svg");
-  return failure;
+  const std::string at_s = fixed(run.result.at_s, 2);
+  return {run.run->folder, run.result.outcome + (moment ? " at " + at_s + " s" : "") + ": " + run.result.reason,
+          run.run->command, moment ? "jaywalk why out/" + run.run->folder + " " + at_s + " --out out/why" : "",
+          text_in(run.folder / "run.svg")};
 }
 
 ReportSection section_of(const ReportedTables& tables) {
   const ReportedExperiment& experiment = *tables.experiment;
-  ReportSection section{experiment.title, "", tables_of(tables), {}};
+  ReportSection section{experiment.title, tables_of(tables), {}};
   section.charts.push_back(
       {"turns_" + experiment.name,
        "Turning angles every 0.25 m, degrees; heights are shares from 0.01 % to 100 %, by tenfolds",
-       turn_chart(turn_bars(tables))});
-  if (const std::vector<MapPanel> panels = map_panels(tables); !panels.empty())
+       turn_chart(tables.rows)});
+  if (std::string chart = map_chart(tables); !chart.empty())
     section.charts.push_back(
         {"maps_" + experiment.name,
          "Seconds lost against the shortest way, by map: columns as the tables' rows, a dot a run, "
          "an open one did not arrive",
-         map_chart(panels)});
+         std::move(chart)});
   return section;
 }
 
 /// Of all runs' robot.csv in the plan's order: two programs that give the same drive alike.
 std::string digest_of(const std::vector<ReportedTables>& all) {
   std::string digests;
-  for (const ReportedTables& tables : all) {
-    for (const ReportedRow& row : tables.rows)
-      for (const ReportedRun& run : row.runs) digests += run.result.robot_csv + "\n";
-  }
+  for_each_run(all, [&](const ReportedRun& run) { digests += run.result.robot_csv + "\n"; });
   return digest_of_text(digests);
 }
 
-ReportedRow& row_of(ReportedTables& tables, const PlannedRun& run) {
-  if (tables.rows.empty() || tables.rows.back().values != run.values) tables.rows.push_back({run.row, run.values, {}});
-  return tables.rows.back();
+void require_one_campaign(const std::vector<std::filesystem::path>& folders) {
+  for (const std::filesystem::path& folder : folders) {
+    if (!is_campaign(folder))
+      throw StartupError(folder.string() + ": holds no campaign", "give folders of one campaign, or a single run's");
+    if (text_in(folder / "campaign.json") != text_in(folders.front() / "campaign.json"))
+      throw StartupError(folder.string() + ": holds another campaign than " + folders.front().string(),
+                         "give folders of the same campaign, scenarios and program");
+  }
+}
+
+ReportedTables read_tables(const std::vector<std::filesystem::path>& folders, const ReportedExperiment& experiment) {
+  ReportedTables tables{&experiment, {}};
+  for (const PlannedRun& run : experiment.runs) {
+    if (tables.rows.empty() || tables.rows.back().values != run.values)
+      tables.rows.push_back({run.row, run.values, {}});
+    const auto has_it = [&](const auto& folder) { return std::filesystem::exists(place_of(folder, run) / "run.json"); };
+    const auto folder = std::find_if(folders.begin(), folders.end(), has_it);
+    if (folder == folders.end()) continue;
+    const std::filesystem::path place = place_of(*folder, run);
+    tables.rows.back().runs.push_back({&run, read_result(place / "run.json"), place});
+  }
+  return tables;
 }
 
 }  // namespace
 
 std::string html_of(const ReportPage& page) {
   std::string out = kHead + as_markup(page.title) + kStyle + "<h1>" + as_markup(page.title) + "</h1>\n<p>" +
-                    as_markup(page.text) + "</p>\n" + cards_of(page.cards);
+                    as_markup(page.text) + "</p>\n<div class=\"cards\">\n";
+  for (const auto& [figure, what] : page.cards)
+    out += "<div><b>" + as_markup(figure) + "</b>" + as_markup(what) + "</div>\n";
+  out += "</div>\n";
   for (const ReportSection& section : page.sections) out += section_of(section);
-  out += runs_of(page.runs) + "<h2>Failures</h2>\n";
+  out += "<details><summary>" + std::to_string(page.runs.rows.size()) + " runs, a row each</summary>\n" +
+         table_of(page.runs, true) + "</details>\n<h2>Failures</h2>\n";
   out += page.failures.empty() ? "<p>None.</p>\n<div>\n" : "<div class=\"failures\">\n";
   for (const ReportFailure& failure : page.failures) out += failure_of(failure);
   return out + "</div>\n" + kSorting + "</body>\n</html>\n";
@@ -251,7 +219,7 @@ std::string html_of(const ReportPage& page) {
 
 std::string markdown_of(const ReportPage& page) {
   std::string out = "# " + page.title + "\n\n" + page.text + "\n\n";
-  for (const ReportCard& card : page.cards) out += "- **" + card.figure + "** " + card.what + "\n";
+  for (const auto& [figure, what] : page.cards) out += "- **" + figure + "** " + what + "\n";
   out += "\n";
   for (const ReportSection& section : page.sections) out += section_in_markdown(section);
   out += "## Failures\n\n";
@@ -263,62 +231,34 @@ std::string markdown_of(const ReportPage& page) {
 
 bool is_campaign(const std::filesystem::path& folder) { return std::filesystem::exists(folder / "campaign.json"); }
 
-CampaignReport::CampaignReport(const std::vector<std::filesystem::path>& folders) {
-  for (const std::filesystem::path& folder : folders) {
-    if (!is_campaign(folder))
-      throw StartupError(folder.string() + ": holds no campaign", "give folders of one campaign, or a single run's");
-    if (text_in(folder / "campaign.json") != text_in(folders.front() / "campaign.json"))
-      throw StartupError(folder.string() + ": holds another campaign than " + folders.front().string(),
-                         "give folders of the same campaign, scenarios and program");
+ReportPage page_of(const std::vector<std::filesystem::path>& folders) {
+  require_one_campaign(folders);
+  const ReportedCampaign campaign = read_plan(folders.front() / "campaign.json");
+  std::vector<ReportedTables> all;
+  std::size_t planned = 0;
+  for (const ReportedExperiment& experiment : campaign.experiments) {
+    all.push_back(read_tables(folders, experiment));
+    planned += experiment.runs.size();
   }
-  campaign_ = read_plan(folders.front() / "campaign.json");
-  for (const ReportedExperiment& experiment : campaign_.experiments) {
-    tables_.push_back({&experiment, {}});
-    read_row(folders, experiment, tables_.back());
-  }
-}
-
-void CampaignReport::read_row(const std::vector<std::filesystem::path>& folders, const ReportedExperiment& experiment,
-                              ReportedTables& tables) {
-  for (std::size_t k = 0; k < experiment.runs.size(); ++k) {
-    const PlannedRun& run = experiment.runs[k];
-    ReportedRow& row = row_of(tables, run);
-    const auto has_it = [&](const auto& folder) { return std::filesystem::exists(place_of(folder, run) / "run.json"); };
-    const auto folder = std::find_if(folders.begin(), folders.end(), has_it);
-    ++runs_;
-    if (folder == folders.end()) {
-      ++missing_;
-      continue;
-    }
-    const std::filesystem::path place = place_of(*folder, run);
-    row.runs.push_back({&run, &experiment.commands[k], read_result(place / "run.json"), place});
-  }
-}
-
-ReportPage CampaignReport::page() const {
   ReportPage page;
-  page.title = campaign_.title;
-  page.text = std::to_string(runs_) + " runs by " + campaign_.program +
-              "; all tables robot.csv together: " + digest_of(tables_) + ".";
-  if (missing_ > 0) page.text += " " + std::to_string(missing_) + " runs are missing: they are in no table.";
+  page.title = campaign.title;
+  page.cards = cards_of(all);
+  page.runs = runs_table(all);
+  page.missing = planned - page.runs.rows.size();
+  page.text = std::to_string(planned) + " runs by " + campaign.program +
+              "; all tables robot.csv together: " + digest_of(all) + ".";
+  if (page.missing > 0) page.text += " " + std::to_string(page.missing) + " runs are missing: they are in no table.";
   page.text +=
       " Success is the strict rule: the goal reached in time, nothing touched, no mover made to turn by the robot. "
       "Intervals are Wilson's, of 95 %.";
-  page.cards = cards_of(tables_);
-  page.runs = runs_table(tables_);
-  const std::vector<SuccessLine> lines = success_lines(tables_);
-  if (!lines.empty())
+  if (const std::vector<SuccessLine> lines = success_lines(all); !lines.empty())
     page.sections.push_back({"Success against movers",
-                             "",
                              {success_table(lines)},
                              {{"success", "Success against movers, with intervals of 95 %", success_chart(lines)}}});
-  for (const ReportedTables& tables : tables_) page.sections.push_back(section_of(tables));
-  for (const ReportedTables& tables : tables_) {
-    for (const ReportedRow& row : tables.rows) {
-      for (const ReportedRun& run : row.runs)
-        if (!run.result.success) page.failures.push_back(failure_of(run));
-    }
-  }
+  for (const ReportedTables& tables : all) page.sections.push_back(section_of(tables));
+  for_each_run(all, [&](const ReportedRun& run) {
+    if (!run.result.success) page.failures.push_back(failure_of(run));
+  });
   return page;
 }
 

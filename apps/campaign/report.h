@@ -1,9 +1,9 @@
 #pragma once
 // The report of a campaign from the folders of its shards: figures and pictures first, then HTML and Markdown, which
 // say the same.
-#include <array>
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "apps/campaign/campaign_folder.h"
@@ -33,24 +33,18 @@ struct ReportFailure {
 
 struct ReportSection {
   std::string title;
-  std::string text;
   std::vector<ReportTable> tables;
   std::vector<ReportChart> charts;
-};
-
-/// A figure that is read first.
-struct ReportCard {
-  std::string figure;  ///< "94.0 %"
-  std::string what;
 };
 
 struct ReportPage {
   std::string title;
   std::string text;
-  std::vector<ReportCard> cards;
+  std::vector<std::pair<std::string, std::string>> cards;  ///< figures to be read first, "94.0 %", and what they are
   std::vector<ReportSection> sections;
   std::vector<ReportFailure> failures;
-  ReportTable runs;  ///< those that are finished; the first cell is the folder below the campaign's
+  ReportTable runs;         ///< those that are finished; the first cell is the folder below the campaign's
+  std::size_t missing = 0;  ///< runs that no folder has a mark of
 };
 
 /// One file that needs no other: charts, pictures and tables to download are in it. Its links to the runs' folders hold
@@ -59,12 +53,9 @@ struct ReportPage {
 /// Refers to charts beside it (charts/NAME.svg) and to pictures (failures/NUMBER.svg, from 1).
 [[nodiscard]] std::string markdown_of(const ReportPage& page);
 
-struct MapPanel;
-
 /// A run of the plan and what came of it.
 struct ReportedRun {
   const PlannedRun* run = nullptr;
-  const std::string* command = nullptr;
   RunResult result;
   std::filesystem::path folder;
 };
@@ -84,36 +75,31 @@ struct ReportedTables {
 /// Whether `folder` holds a campaign.
 [[nodiscard]] bool is_campaign(const std::filesystem::path& folder);
 
-/// Reads the folders of one campaign's shards. Throws StartupError where a folder holds no campaign, or a shard of
-/// another one.
-class CampaignReport {
- public:
-  explicit CampaignReport(const std::vector<std::filesystem::path>& folders);
+/// The report of one campaign from the folders of its shards: the same for the same runs, however many folders they
+/// came from. Throws StartupError where a folder holds no campaign, or a shard of another one.
+[[nodiscard]] ReportPage page_of(const std::vector<std::filesystem::path>& folders);
 
-  /// Runs that no folder has a mark of.
-  [[nodiscard]] std::size_t missing() const { return missing_; }
-  /// The same for the same runs, however many folders they came from.
-  [[nodiscard]] ReportPage page() const;
+/// Calls `visit` with each finished run, in the plan's order.
+template <class Visit>
+void for_each_run(const std::vector<ReportedTables>& all, const Visit& visit) {
+  for (const ReportedTables& tables : all) {
+    for (const ReportedRow& row : tables.rows)
+      for (const ReportedRun& run : row.runs) visit(run);
+  }
+}
 
- private:
-  void read_row(const std::vector<std::filesystem::path>& folders, const ReportedExperiment& experiment,
-                ReportedTables& tables);
-
-  ReportedCampaign campaign_;
-  std::vector<ReportedTables> tables_;
-  std::size_t runs_ = 0, missing_ = 0;
-};
+/// Most columns of tables and panels by scenario: drawn worlds are more, and have none.
+inline constexpr std::size_t kMostColumns = 12;
 
 /// The tables of one experiment.
 [[nodiscard]] std::vector<ReportTable> tables_of(const ReportedTables& experiment);
-/// Time lost by map, s; none for one map or many.
-[[nodiscard]] std::vector<MapPanel> map_panels(const ReportedTables& experiment);
-/// Settings against the first that differs in one option or key alone, over runs of the same scenario and seed; no
-/// table where there are none.
-[[nodiscard]] std::vector<ReportTable> paired_tables(const ReportedTables& experiment);
+/// Settings against the first that differs in one option or key alone, over runs of the same scenario and seed.
+[[nodiscard]] ReportTable paired_table(const ReportedTables& experiment);
+/// Turns of a row's runs in each bin of PathShape's histogram.
+[[nodiscard]] std::vector<double> turns_of(const ReportedRow& row);
 /// A row a run.
 [[nodiscard]] ReportTable runs_table(const std::vector<ReportedTables>& all);
-[[nodiscard]] std::vector<ReportCard> cards_of(const std::vector<ReportedTables>& all);
+[[nodiscard]] std::vector<std::pair<std::string, std::string>> cards_of(const std::vector<ReportedTables>& all);
 
 // Success against the number of movers: the paper's table 1, and the campaign's beside it.
 
@@ -129,13 +115,6 @@ struct SuccessLine {
   std::vector<SuccessPoint> points;
 };
 
-/// Success that the paper reports on its own maps.
-struct PaperPoint {
-  double movers, percent;
-};
-/// Time-warped grids, table "Percentage of success in path planning".
-inline constexpr std::array<PaperPoint, 6> kPaper{{{1, 95}, {2, 95}, {4, 92.5}, {8, 87.5}, {12, 80}, {16, 75}}};
-
 /// A line for each experiment that varies movers.count, and within it for each setting of what else varies.
 [[nodiscard]] std::vector<SuccessLine> success_lines(const std::vector<ReportedTables>& all);
 
@@ -145,28 +124,15 @@ inline constexpr std::array<PaperPoint, 6> kPaper{{{1, 95}, {2, 95}, {4, 92.5}, 
 /// Success against movers, with the paper's own points (its table 1) beside the lines; movers on a scale of doublings.
 [[nodiscard]] std::string success_chart(const std::vector<SuccessLine>& lines);
 
-struct TurnBars {
-  std::string name;
-  std::array<double, kTurnBins> shares{};  ///< of all turns
-};
-
 /// The paper's histograms of turning angles, one beside the other; heights are shares on a scale of tenfolds, so that
 /// rare wide turns are seen.
-[[nodiscard]] std::string turn_chart(const std::vector<TurnBars>& all);
+[[nodiscard]] std::string turn_chart(const std::vector<ReportedRow>& rows);
 
-/// A map with its runs.
-struct MapPanel {
-  struct Run {
-    std::size_t row = 0;  ///< of the experiment's rows
-    double value = 0.0;   ///< NaN: did not arrive
-    std::string said;     ///< names it
-  };
-  std::string map;
-  std::vector<Run> runs;
-};
+/// Against the shortest path at the greatest speed, s; NaN of a run that did not arrive.
+[[nodiscard]] double time_lost_s(const ReportedRun& run);
 
-/// A small panel a map, all with the same axes: a column a row of the experiment, a dot a run; an open dot at the top
-/// did not arrive.
-[[nodiscard]] std::string map_chart(const std::vector<MapPanel>& panels);
+/// Time lost by map: a small panel a map, all with the same axes: a column a row of the experiment, a dot a run; an
+/// open dot at the top did not arrive. Empty for one map or many.
+[[nodiscard]] std::string map_chart(const ReportedTables& tables);
 
 }  // namespace jaywalk::campaign

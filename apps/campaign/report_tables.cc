@@ -2,7 +2,6 @@
 #include <array>
 #include <cmath>
 #include <functional>
-#include <optional>
 
 #include "apps/campaign/report.h"
 #include "apps/campaign/statistics.h"
@@ -13,16 +12,20 @@ namespace {
 
 using Figure = std::function<double(const ReportedRun&)>;
 
-constexpr std::size_t kFewestPairs = 5;   // of a comparison
-constexpr std::size_t kMostColumns = 12;  // of tables by scenario: drawn worlds are more, and have none
+constexpr std::size_t kFewestPairs = 5;  // of a comparison
 
 std::size_t count_if(const std::vector<ReportedRun>& runs, const std::function<bool(const RunResult&)>& holds) {
-  return static_cast<std::size_t>(
-      std::count_if(runs.begin(), runs.end(), [&](const ReportedRun& run) { return holds(run.result); }));
+  return static_cast<std::size_t>(std::ranges::count_if(runs, holds, &ReportedRun::result));
 }
 
-std::size_t count_of(const std::vector<ReportedRun>& runs, const std::string& outcome) {
-  return count_if(runs, [&](const RunResult& result) { return result.outcome == outcome; });
+std::size_t count_above_0(const std::vector<ReportedRun>& runs, const char* figure) {
+  return count_if(runs, [&](const RunResult& result) { return result.figure(figure) > 0.0; });
+}
+
+bool succeeded(const RunResult& result) { return result.success; }
+
+std::string success_cell(const std::vector<ReportedRun>& runs) {
+  return std::to_string(count_if(runs, succeeded)) + " of " + std::to_string(runs.size());
 }
 
 std::vector<double> values_of(const std::vector<ReportedRun>& runs, const Figure& figure) {
@@ -45,7 +48,7 @@ double length_over_shortest(const ReportedRun& run) {
 }
 
 /// Against the shortest path at the greatest speed.
-double time_lost_s(const ReportedRun& run) {
+double time_over_shortest_s(const ReportedRun& run) {
   return run.result.figure("duration_s") - run.result.figure("static_shortest_path_m") / run.run->cruise_mps;
 }
 
@@ -53,10 +56,11 @@ Figure a_minute(const char* name) {
   return [name](const ReportedRun& run) { return run.result.figure(name) / (run.result.figure("duration_s") / 60.0); };
 }
 
-std::string share_of(std::size_t good, std::size_t runs) {
-  if (runs == 0) return "-";
-  const Interval interval = wilson(good, runs);
-  return fixed(100.0 * static_cast<double>(good) / static_cast<double>(runs), 1) + " % (" +
+std::string share_cell(const std::vector<ReportedRun>& runs) {
+  if (runs.empty()) return "-";
+  const std::size_t good = count_if(runs, succeeded);
+  const Interval interval = wilson(good, runs.size());
+  return fixed(100.0 * static_cast<double>(good) / static_cast<double>(runs.size()), 1) + " % (" +
          fixed(100.0 * interval.low, 0) + "-" + fixed(100.0 * interval.high, 0) + ")";
 }
 
@@ -66,34 +70,33 @@ double sum_of(const std::vector<double>& values) {
   return sum;
 }
 
-std::vector<std::string> success_row(const ReportedRow& row) {
-  const std::vector<ReportedRun>& runs = row.runs;
-  const std::size_t good = count_if(runs, [](const RunResult& r) { return r.success; });
-  const std::size_t clear = count_if(runs, [](const RunResult& r) { return r.ran() && r.figure("contacts") == 0.0; });
-  const auto outcome = [&](const char* name) { return std::to_string(count_of(runs, name)); };
-  const std::size_t not_run = count_if(runs, [](const RunResult& r) { return !r.ran(); });
-  return {row.name,
-          std::to_string(good) + " of " + std::to_string(runs.size()),
-          share_of(good, runs.size()),
-          outcome("forced_mover"),
-          outcome("collision"),
-          outcome("timeout"),
-          outcome("fault"),
-          std::to_string(not_run),
-          std::to_string(clear),
-          std::to_string(count_if(runs, [](const RunResult& r) { return r.figure("contacts_caused") > 0.0; })),
-          fixed(sum_of(values_of(runs, plain("forced_movers"))), 0),
-          fixed(sum_of(values_of(runs, plain("faults"))), 0),
-          std::to_string(count_if(runs, [](const RunResult& r) { return r.figure("loops") > 0.0; }))};
+/// Heads and cells of a row of the table.
+std::vector<std::pair<std::string, std::string>> success_columns(const std::vector<ReportedRun>& runs) {
+  const auto number = [&](const auto& holds) { return std::to_string(count_if(runs, holds)); };
+  const auto ended = [&](const char* as) { return number([as](const RunResult& r) { return r.outcome == as; }); };
+  const auto above_0 = [&](const char* figure) { return std::to_string(count_above_0(runs, figure)); };
+  const auto sum = [&](const char* figure) { return fixed(sum_of(values_of(runs, plain(figure))), 0); };
+  return {{"success", success_cell(runs)},
+          {"share (95 %)", share_cell(runs)},
+          {"forced a mover", ended("forced_mover")},
+          {"collision", ended("collision")},
+          {"timeout", ended("timeout")},
+          {"fault", ended("fault")},
+          {"did not run", number([](const RunResult& r) { return !r.ran(); })},
+          {"contact-free", number([](const RunResult& r) { return r.ran() && r.figure("contacts") == 0.0; })},
+          {"touched while driving", above_0("contacts_caused")},
+          {"movers made to turn", sum("forced_movers")},
+          {"stops by faults", sum("faults")},
+          {"runs with a loop", above_0("loops")}};
 }
 
 ReportTable success_table(const ReportedTables& tables) {
-  ReportTable table{
-      "Success",
-      {"", "success", "share (95 %)", "forced a mover", "collision", "timeout", "fault", "did not run", "contact-free",
-       "touched while driving", "movers made to turn", "stops by faults", "runs with a loop"},
-      {}};
-  for (const ReportedRow& row : tables.rows) table.rows.push_back(success_row(row));
+  ReportTable table{"Success", {""}, {}};
+  for (const auto& [head, cell] : success_columns({})) table.head.push_back(head);
+  for (const ReportedRow& row : tables.rows) {
+    table.rows.push_back({row.name});
+    for (const auto& [head, cell] : success_columns(row.runs)) table.rows.back().push_back(cell);
+  }
   return table;
 }
 
@@ -106,7 +109,7 @@ struct RideFigure {
 
 std::vector<RideFigure> ride_figures() {
   return {{"length over shortest", length_over_shortest, 2},
-          {"time lost, s", time_lost_s, 1},
+          {"time lost, s", time_over_shortest_s, 1},
           {"steering reversals a minute", a_minute("steering_reversals"), 1},
           {"speed reversals a minute", a_minute("speed_reversals"), 1},
           {"stood, %", [](const ReportedRun& run) { return 100.0 * run.result.figure("stood_share"); }, 1},
@@ -128,9 +131,7 @@ std::vector<RideFigure> people_figures() {
 }
 
 bool has_social_movers(const ReportedTables& tables) {
-  return std::ranges::any_of(tables.rows, [](const ReportedRow& row) {
-    return count_if(row.runs, [](const RunResult& r) { return r.figure("slowed_m") > 0.0; }) > 0;
-  });
+  return std::ranges::any_of(tables.rows, [](const auto& row) { return count_above_0(row.runs, "slowed_m") > 0; });
 }
 
 /// Median, 95th percentile and largest of runs that arrived.
@@ -138,36 +139,34 @@ ReportTable figure_table(const ReportedTables& tables, const char* title, const 
   ReportTable table{title, {""}, {}};
   for (const RideFigure& figure : figures) table.head.emplace_back(figure.name);
   for (const ReportedRow& row : tables.rows) {
-    std::vector<std::string> cells{row.name};
+    table.rows.push_back({row.name});
     for (const RideFigure& figure : figures) {
       const std::vector<double> values = values_of(row.runs, of_arrived(figure.of));
       const double rare = figure.less_is_worse ? 0.05 : 0.95, worst = figure.less_is_worse ? 0.0 : 1.0;
-      cells.push_back(fixed(median(values), figure.digits) + " / " + fixed(quantile(values, rare), figure.digits) +
-                      " / " + fixed(quantile(values, worst), figure.digits));
+      table.rows.back().push_back(fixed(median(values), figure.digits) + " / " +
+                                  fixed(quantile(values, rare), figure.digits) + " / " +
+                                  fixed(quantile(values, worst), figure.digits));
     }
-    table.rows.push_back(cells);
   }
   return table;
 }
 
-/// Of runs that a person steered; without any there is no such table.
-std::vector<ReportTable> stick_table(const ReportedTables& tables) {
-  ReportTable table{"Driving by the stick", {""}, {}};
-  for (const char* head : {"runs", "touched something", "at over 0.05 m/s", "least clearance, m",
-                           "of the wish granted, %, mean", "least of a run"})
-    table.head.emplace_back(head);
-  const auto touched_by = [](const ReportedRow& row, const char* figure) {
-    return std::to_string(count_if(row.runs, [figure](const RunResult& r) { return r.figure(figure) > 0.0; }));
-  };
+/// A row for each setting of which a person steered runs.
+ReportTable stick_table(const ReportedTables& tables) {
+  ReportTable table{"Driving by the stick",
+                    {"", "runs", "touched something", "at over 0.05 m/s", "least clearance, m",
+                     "of the wish granted, %, mean", "least of a run"},
+                    {}};
   for (const ReportedRow& row : tables.rows) {
     const std::vector<double> granted = values_of(row.runs, plain("granted_share"));
-    if (std::all_of(granted.begin(), granted.end(), [](double share) { return std::isnan(share); })) continue;
-    table.rows.push_back({row.name, std::to_string(row.runs.size()), touched_by(row, "contacts"),
-                          touched_by(row, "contacts_caused"),
+    if (std::isnan(mean(granted))) continue;
+    table.rows.push_back({row.name, std::to_string(row.runs.size()),
+                          std::to_string(count_above_0(row.runs, "contacts")),
+                          std::to_string(count_above_0(row.runs, "contacts_caused")),
                           fixed(quantile(values_of(row.runs, plain("min_clearance_m")), 0.0), 3),
                           fixed(100.0 * mean(granted), 1), fixed(100.0 * quantile(granted, 0.0), 1)});
   }
-  return table.rows.empty() ? std::vector<ReportTable>() : std::vector<ReportTable>{table};
+  return table;
 }
 
 /// A cell for each scenario, of the runs that the row has there.
@@ -176,21 +175,14 @@ ReportTable by_scenario(const ReportedTables& tables, const std::string& title,
   ReportTable table{title, {""}, {}};
   for (const std::string& scenario : tables.experiment->scenarios) table.head.push_back(scenario);
   for (const ReportedRow& row : tables.rows) {
-    std::vector<std::string> cells{row.name};
+    table.rows.push_back({row.name});
     for (const std::string& scenario : tables.experiment->scenarios) {
-      std::vector<ReportedRun> there;
-      std::copy_if(row.runs.begin(), row.runs.end(), std::back_inserter(there),
-                   [&](const ReportedRun& run) { return run.run->scenario == scenario; });
-      cells.push_back(cell(there));
+      std::vector<ReportedRun> there = row.runs;
+      std::erase_if(there, [&](const ReportedRun& run) { return run.run->scenario != scenario; });
+      table.rows.back().push_back(cell(there));
     }
-    table.rows.push_back(cells);
   }
   return table;
-}
-
-std::string success_cell(const std::vector<ReportedRun>& runs) {
-  return std::to_string(count_if(runs, [](const RunResult& r) { return r.success; })) + " of " +
-         std::to_string(runs.size());
 }
 
 std::string length_cell(const std::vector<ReportedRun>& runs) {
@@ -204,31 +196,27 @@ ReportTable turn_table(const ReportedTables& tables) {
   for (std::size_t k = 0; k + 1 < kEdges.size(); ++k)
     table.head.push_back(std::to_string(10 * kEdges[k]) + "-" + std::to_string(10 * kEdges[k + 1]) + " deg");
   for (const ReportedRow& row : tables.rows) {
-    std::array<double, kTurnBins> turns{};
-    for (const ReportedRun& run : row.runs)
-      for (std::size_t k = 0; k < kTurnBins; ++k) turns[k] += run.result.turns[k];
-    const double all = sum_of({turns.begin(), turns.end()});
-    std::vector<std::string> cells{row.name};
+    const std::vector<double> turns = turns_of(row);
+    const double all = sum_of(turns);
+    table.rows.push_back({row.name});
     for (std::size_t k = 0; k + 1 < kEdges.size(); ++k) {
       const double some = sum_of({turns.begin() + static_cast<std::ptrdiff_t>(kEdges[k]),
                                   turns.begin() + static_cast<std::ptrdiff_t>(kEdges[k + 1])});
-      cells.push_back(fixed(100.0 * some / all, 2));
+      table.rows.back().push_back(fixed(100.0 * some / all, 2));
     }
-    table.rows.push_back(cells);
   }
   return table;
 }
 
-/// Which axis alone tells two rows apart; none where it is another world: movers and maps are not paired.
-std::optional<std::size_t> axis_between(const ReportedExperiment& experiment, const ReportedRow& a,
-                                        const ReportedRow& b) {
-  std::optional<std::size_t> axis;
+/// Whether one axis alone tells two rows apart; not where it is another world: movers and maps are not paired.
+bool are_comparable(const ReportedExperiment& experiment, const ReportedRow& a, const ReportedRow& b) {
+  std::size_t different = 0;
   for (std::size_t k = 0; k < a.values.size(); ++k) {
     if (a.values[k] == b.values[k]) continue;
-    if (axis || experiment.axes[k].starts_with("movers.") || experiment.axes[k].starts_with("map.")) return {};
-    axis = k;
+    if (experiment.axes[k].starts_with("movers.") || experiment.axes[k].starts_with("map.")) return false;
+    ++different;
   }
-  return axis;
+  return different == 1;
 }
 
 /// "4.1 (2.0 to 6.2), 20 pairs": of `to` less `from`, runs with the same scenario and seed.
@@ -250,6 +238,13 @@ std::string difference(const ReportedRow& from, const ReportedRow& to, const Fig
 
 }  // namespace
 
+std::vector<double> turns_of(const ReportedRow& row) {
+  std::vector<double> turns(kTurnBins);
+  for (const ReportedRun& run : row.runs)
+    for (std::size_t k = 0; k < kTurnBins; ++k) turns[k] += run.result.turns[k];
+  return turns;
+}
+
 std::vector<ReportTable> tables_of(const ReportedTables& tables) {
   const bool few = tables.experiment->scenarios.size() <= kMostColumns;
   std::vector<ReportTable> all{success_table(tables)};
@@ -261,81 +256,57 @@ std::vector<ReportTable> tables_of(const ReportedTables& tables) {
         figure_table(tables, "People, in runs that arrived: median / 95th percentile / largest", people_figures()));
   if (few) all.push_back(by_scenario(tables, "Path length by scenario, m, mean of runs that arrived", length_cell));
   all.push_back(turn_table(tables));
-  for (ReportTable& table : stick_table(tables)) all.push_back(std::move(table));
-  for (ReportTable& table : paired_tables(tables)) all.push_back(std::move(table));
+  all.push_back(stick_table(tables));
+  all.push_back(paired_table(tables));
+  std::erase_if(all, [](const ReportTable& table) { return table.rows.empty(); });
   return all;
 }
 
-std::vector<MapPanel> map_panels(const ReportedTables& tables) {
-  const std::vector<std::string>& scenarios = tables.experiment->scenarios;
-  std::vector<MapPanel> panels;
-  if (scenarios.size() < 2 || scenarios.size() > kMostColumns) return panels;
-  for (const std::string& scenario : scenarios) {
-    panels.push_back({scenario, {}});
-    for (std::size_t k = 0; k < tables.rows.size(); ++k) {
-      for (const ReportedRun& run : tables.rows[k].runs) {
-        if (run.run->scenario != scenario) continue;
-        panels.back().runs.push_back(
-            {k, of_arrived(time_lost_s)(run), tables.rows[k].name + ", seed " + std::to_string(run.run->seed)});
-      }
-    }
-  }
-  return panels;
-}
+double time_lost_s(const ReportedRun& run) { return of_arrived(time_over_shortest_s)(run); }
 
-std::vector<ReportTable> paired_tables(const ReportedTables& tables) {
+ReportTable paired_table(const ReportedTables& tables) {
   ReportTable table{"Pairs of the same seeds: mean difference (95 % interval), pairs", {"", "success, % of runs"}, {}};
   for (const RideFigure& figure : ride_figures()) table.head.emplace_back(figure.name);
   const Figure success = [](const ReportedRun& run) { return run.result.success ? 100.0 : 0.0; };
-  for (auto to_row = tables.rows.begin(); to_row != tables.rows.end(); ++to_row) {
-    const ReportedRow& to = *to_row;
-    const auto from = std::find_if(tables.rows.begin(), to_row, [&](const ReportedRow& a) {
-      return axis_between(*tables.experiment, a, to).has_value();
-    });
-    if (from == to_row) continue;
-    const std::string whole = difference(*from, to, success, 1);
-    if (whole == "-") continue;
-    std::vector<std::string> cells{to.name + ", less " + from->name, whole};
+  for (auto to = tables.rows.begin(); to != tables.rows.end(); ++to) {
+    const auto from = std::find_if(
+        tables.rows.begin(), to, [&](const ReportedRow& row) { return are_comparable(*tables.experiment, row, *to); });
+    const std::string whole = difference(*from, *to, success, 1);
+    if (from == to || whole == "-") continue;
+    std::vector<std::string> cells{to->name + ", less " + from->name, whole};
     for (const RideFigure& figure : ride_figures())
-      cells.push_back(difference(*from, to, of_arrived(figure.of), figure.digits));
+      cells.push_back(difference(*from, *to, of_arrived(figure.of), figure.digits));
     table.rows.push_back(cells);
-  }
-  return table.rows.empty() ? std::vector<ReportTable>() : std::vector<ReportTable>{table};
-}
-
-ReportTable runs_table(const std::vector<ReportedTables>& all) {
-  ReportTable table{"All runs", {"run", "outcome", "time, s", "way, m"}, {}};
-  for (const RideFigure& figure : ride_figures()) table.head.emplace_back(figure.name);
-  for (const char* head : {"touched while driving", "movers made to turn", "loops"}) table.head.emplace_back(head);
-  for (const ReportedTables& tables : all) {
-    for (const ReportedRow& row : tables.rows) {
-      for (const ReportedRun& run : row.runs) {
-        const auto of = [&](const char* name, int digits) { return fixed(run.result.figure(name), digits); };
-        std::vector<std::string> cells{run.run->folder, run.result.outcome, of("duration_s", 1),
-                                       of("path_length_m", 1)};
-        for (const RideFigure& figure : ride_figures()) cells.push_back(fixed(figure.of(run), figure.digits));
-        for (const char* name : {"contacts_caused", "forced_movers", "loops"}) cells.push_back(of(name, 0));
-        table.rows.push_back(cells);
-      }
-    }
   }
   return table;
 }
 
-std::vector<ReportCard> cards_of(const std::vector<ReportedTables>& all) {
+ReportTable runs_table(const std::vector<ReportedTables>& all) {
+  std::vector<RideFigure> figures = ride_figures();
+  figures.insert(figures.begin(), {{"time, s", plain("duration_s"), 1}, {"way, m", plain("path_length_m"), 1}});
+  figures.insert(figures.end(), {{"touched while driving", plain("contacts_caused"), 0},
+                                 {"movers made to turn", plain("forced_movers"), 0},
+                                 {"loops", plain("loops"), 0}});
+  ReportTable table{"All runs", {"run", "outcome"}, {}};
+  for (const RideFigure& figure : figures) table.head.emplace_back(figure.name);
+  for_each_run(all, [&](const ReportedRun& run) {
+    std::vector<std::string> cells{run.run->folder, run.result.outcome};
+    for (const RideFigure& figure : figures) cells.push_back(fixed(figure.of(run), figure.digits));
+    table.rows.push_back(cells);
+  });
+  return table;
+}
+
+std::vector<std::pair<std::string, std::string>> cards_of(const std::vector<ReportedTables>& all) {
   std::size_t runs = 0, good = 0, touched = 0, looped = 0;
   std::vector<double> lost_s, nearest_m;
-  for (const ReportedTables& tables : all) {
-    for (const ReportedRow& row : tables.rows) {
-      for (const ReportedRun& run : row.runs) {
-        ++runs, good += run.result.success ? 1U : 0U;
-        touched += run.result.figure("contacts_caused") > 0.0 ? 1U : 0U;
-        looped += run.result.figure("loops") > 0.0 ? 1U : 0U;
-        lost_s.push_back(of_arrived(time_lost_s)(run));
-        nearest_m.push_back(run.result.figure("min_mover_clearance_m"));
-      }
-    }
-  }
+  for_each_run(all, [&](const ReportedRun& run) {
+    ++runs, good += run.result.success ? 1U : 0U;
+    touched += run.result.figure("contacts_caused") > 0.0 ? 1U : 0U;
+    looped += run.result.figure("loops") > 0.0 ? 1U : 0U;
+    lost_s.push_back(time_lost_s(run));
+    nearest_m.push_back(run.result.figure("min_mover_clearance_m"));
+  });
   const Interval interval = wilson(good, runs);
   return {{std::to_string(good) + " of " + std::to_string(runs),
            "succeeded: " + fixed(100.0 * interval.low, 0) + " to " + fixed(100.0 * interval.high, 0) + " % (95 %)"},

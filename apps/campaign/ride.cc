@@ -15,25 +15,23 @@ namespace {
 
 constexpr double kLeastTurn_radps = 0.1, kLeastSpeed_mps = 0.03;  // slower than this it turns, or drives, neither way
 constexpr double kStands_mps = 0.05;
+/// Above every model's comfort and below every model's braking; changes are taken over 0.1 s, as Smoothness does.
+constexpr double kHardBrake_mps2 = 0.7;
 constexpr double kChangeOver_s = 0.0999, kBrakeEnds_s = 0.3;  // a brake that bites again sooner is the same
 constexpr double kBesideBrake_s = 0.25;                       // its onset and release are its own
 
 /// How often a value larger than `least` is followed, at last, by one of the other sign.
-class Reversals {
- public:
-  explicit Reversals(double least) : least_(least) {}
-  void add(double value) {
-    if (!(std::fabs(value) > least_)) return;
-    const int sign = value > 0.0 ? 1 : -1;
-    if (sign == -sign_) ++count_;
-    sign_ = sign;
+double reversals(const std::vector<double>& values, double least) {
+  double count = 0.0;
+  int sign = 0;
+  for (const double value : values) {
+    if (!(std::fabs(value) > least)) continue;
+    const int now = value > 0.0 ? 1 : -1;
+    if (now == -sign) ++count;
+    sign = now;
   }
-  [[nodiscard]] double count() const { return count_; }
-
- private:
-  double least_, count_ = 0.0;
-  int sign_ = 0;
-};
+  return count;
+}
 
 /// Hard brakes, and the jerk apart from them.
 class Brakes {
@@ -78,6 +76,8 @@ class Brakes {
 
 constexpr double kStuck_mps = 0.02;
 
+using Failure = std::pair<double, std::string>;  ///< its moment, s, and reason
+
 struct RobotRow {
   double t_s = 0.0;
   Vec2 position;
@@ -104,21 +104,21 @@ std::string where(const RobotRow& row) {
 }
 
 /// The first mover that the robot made to turn.
-FailureWords forced_words(const std::filesystem::path& folder, const std::vector<RobotRow>& robot) {
+Failure forced_words(const std::filesystem::path& folder, const std::vector<RobotRow>& robot) {
   CsvRows rows(folder / "movers.csv", {"t_s", "id", "x_m", "y_m", "forced"});
-  FailureWords words{std::numeric_limits<double>::quiet_NaN(), ""};
+  Failure words{kUnknown, ""};
   std::set<std::string> forced;
   while (rows.next()) {
     if (rows.text(4) != "1") continue;
     if (forced.empty()) {
-      words.at_s = rows.number(0);
-      const RobotRow& then = row_at(robot, words.at_s);
+      words.first = rows.number(0);
+      const RobotRow& then = row_at(robot, words.first);
       const double apart_m = distance(then.position, {rows.number(2), rows.number(3)});
-      words.reason = "mover " + rows.text(1) + " had to turn for " + where(then) + formatted(", %.2f m apart", apart_m);
+      words.second = "mover " + rows.text(1) + " had to turn for " + where(then) + formatted(", %.2f m apart", apart_m);
     }
     forced.insert(rows.text(1));
   }
-  if (forced.size() > 1) words.reason += "; " + std::to_string(forced.size()) + " movers in all";
+  if (forced.size() > 1) words.second += "; " + std::to_string(forced.size()) + " movers in all";
   return words;
 }
 
@@ -135,7 +135,7 @@ std::string nearest_mover(const std::filesystem::path& folder, const RobotRow& e
   return nearest.empty() ? "nobody about" : formatted("mover %s nearest, %.2f m off", nearest.c_str(), least_m);
 }
 
-FailureWords timeout_words(const PlannedRun& run, const std::vector<RobotRow>& robot) {
+Failure timeout_words(const PlannedRun& run, const std::vector<RobotRow>& robot) {
   const RobotRow& end = robot.back();
   double moved_s = robot.front().t_s;
   for (const RobotRow& row : robot)
@@ -147,14 +147,14 @@ FailureWords timeout_words(const PlannedRun& run, const std::vector<RobotRow>& r
 }
 
 /// The last tick is after the contact, which stops the robot; the tick before has the speed at contact.
-FailureWords collision_words(const std::filesystem::path& folder, const std::vector<RobotRow>& robot) {
+Failure collision_words(const std::filesystem::path& folder, const std::vector<RobotRow>& robot) {
   const RobotRow& end = robot.back();
   RobotRow touched = end;
   if (robot.size() > 1) touched.v_mps = robot[robot.size() - 2].v_mps;
   return {end.t_s, "something touched " + where(touched) + ", " + nearest_mover(folder, end)};
 }
 
-FailureWords fault_words(const std::vector<RobotRow>& robot) {
+Failure fault_words(const std::vector<RobotRow>& robot) {
   for (const RobotRow& row : robot)
     if (row.reasons.find("latched") != std::string::npos)
       return {row.t_s, "a fault stopped " + where(row) + ": " + row.reasons};
@@ -163,24 +163,27 @@ FailureWords fault_words(const std::vector<RobotRow>& robot) {
 
 }  // namespace
 
-Ride ride_of(const std::filesystem::path& robot_csv) {
+std::map<std::string, double> ride_of(const std::filesystem::path& robot_csv) {
   CsvRows rows(robot_csv, {"v_mps", "w_radps", "t_s"});
-  Reversals steering(kLeastTurn_radps), speed(kLeastSpeed_mps);
+  std::vector<double> v_mps, w_radps;
   Brakes brakes;
-  double ticks = 0.0, stood = 0.0;
-  for (; rows.next(); ++ticks) {
-    const double v_mps = rows.number(0);
-    steering.add(rows.number(1));
-    speed.add(v_mps);
-    brakes.add(rows.number(2), v_mps);
-    if (std::fabs(v_mps) < kStands_mps) ++stood;
+  while (rows.next()) {
+    v_mps.push_back(rows.number(0));
+    w_radps.push_back(rows.number(1));
+    brakes.add(rows.number(2), v_mps.back());
   }
-  return {steering.count(), speed.count(), ticks > 0.0 ? stood / ticks : 0.0, brakes.count(), brakes.calm_jerk(0.99)};
+  const auto ticks = static_cast<double>(v_mps.size());
+  const auto stood = std::ranges::count_if(v_mps, [](double v) { return std::fabs(v) < kStands_mps; });
+  return {{"steering_reversals", reversals(w_radps, kLeastTurn_radps)},
+          {"speed_reversals", reversals(v_mps, kLeastSpeed_mps)},
+          {"stood_share", ticks > 0.0 ? static_cast<double>(stood) / ticks : 0.0},
+          {"hard_brakes", brakes.count()},
+          {"calm_jerk_p99_mps3", brakes.calm_jerk(0.99)}};
 }
 
-FailureWords failure_words(const PlannedRun& run, const std::string& outcome, const std::filesystem::path& folder) {
+Failure failure_words(const PlannedRun& run, const std::string& outcome, const std::filesystem::path& folder) {
   const std::vector<RobotRow> robot = robot_rows(folder);
-  if (robot.empty()) return {std::numeric_limits<double>::quiet_NaN(), "it left no tick"};
+  if (robot.empty()) return {kUnknown, "it left no tick"};
   if (outcome == "forced_mover") return forced_words(folder, robot);
   if (outcome == "fault") return fault_words(robot);
   if (outcome != "collision") return timeout_words(run, robot);

@@ -71,7 +71,9 @@ Qos qos_of(bool kept) {
 
 }  // namespace
 
-Time wall_time() { return Time(std::chrono::system_clock::now().time_since_epoch()); }
+exchange::Arrival arrival_of(const dds_sample_info_t& about, Time ours) {
+  return {ours, Time(std::chrono::system_clock::now().time_since_epoch()), Time(Duration(about.source_timestamp))};
+}
 
 dds_entity_t checked(dds_entity_t entity, const std::string& what) {
   if (entity >= 0) return entity;
@@ -114,11 +116,9 @@ std::optional<PoseOrder> PoseReader::newest(dds_entity_t reader) {
   std::optional<PoseOrder> newest;
   take_all<Message>(reader, [&](const Message& pose, const dds_sample_info_t& about) {
     using Heard = exchange::GoalOrders::Heard;
-    const auto& stamp = pose.header_.stamp_;
-    const Time stamped{std::chrono::seconds(stamp.sec_) + std::chrono::nanoseconds(stamp.nanosec_)};
+    const Time stamped = time_of(pose.header_.stamp_);
     std::string message = in_cdr(pose);
-    const Heard heard =
-        orders_.judge(message, stamped, about.publication_handle, {kNever, wall_time(), written(about)});
+    const Heard heard = orders_.judge(message, stamped, about.publication_handle, arrival_of(about));
     if (heard == Heard::kOrder) newest = {.is_place = reader == places_, .message = std::move(message)};
     if (heard == Heard::kLate)
       std::fputs("jaywalk_dds: a pose is not taken: it comes late, or clocks differ: synchronise them\n", stderr);

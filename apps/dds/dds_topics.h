@@ -7,13 +7,11 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <type_traits>
 
 #include "apps/formats/ros_robot.h"
 
 namespace jaywalk::dds {
-/// Handle that a call of DDS returned. Throws StartupError for a negative one, which is an error; `what` names the
-/// call.
+/// Handle that the call `what` of DDS returned. Throws StartupError for a negative one, which is an error.
 dds_entity_t checked(dds_entity_t entity, const std::string& what);
 
 using Qos = std::unique_ptr<dds_qos_t, decltype(&dds_delete_qos)>;
@@ -26,24 +24,25 @@ using Qos = std::unique_ptr<dds_qos_t, decltype(&dds_delete_qos)>;
 [[nodiscard]] dds_entity_t make_reader(dds_entity_t participant, const dds_topic_descriptor_t& type,
                                        const std::string& topic, const Qos& qos);
 
-/// Time of the wall clock, which stamps of ROS 2 and DDS are of.
-[[nodiscard]] Time wall_time();
-[[nodiscard]] inline Time written(const dds_sample_info_t& about) { return Time(Duration(about.source_timestamp)); }
+/// Of a sample that came by now; `ours`: by the loop's clock.
+[[nodiscard]] exchange::Arrival arrival_of(const dds_sample_info_t& about, Time ours = kNever);
 
-/// `use(sample)`, or `use(sample, about)`, for each that waits at a reader of the type T.
+/// `use(sample, about)` for each that waits at a reader of the type T.
 template <class T, class Use>
 void take_all(dds_entity_t reader, Use use) {
   void* sample = nullptr;
   dds_sample_info_t about;
   while (dds_take(reader, &sample, &about, 1, 1) > 0) {
-    if constexpr (std::is_invocable_v<Use, const T&, const dds_sample_info_t&>) {
-      if (about.valid_data) use(*static_cast<const T*>(sample), about);
-    } else {
-      if (about.valid_data) use(*static_cast<const T*>(sample));
-    }
+    if (about.valid_data) use(*static_cast<const T*>(sample), about);
     dds_return_loan(reader, &sample, 1);
     sample = nullptr;
   }
+}
+
+/// A stamp of a message's header.
+template <class Stamp>
+[[nodiscard]] Time time_of(const Stamp& stamp) {
+  return Time{std::chrono::seconds(stamp.sec_) + std::chrono::nanoseconds(stamp.nanosec_)};
 }
 
 /// A pose that came, in CDR: a goal of /goal_pose, or of /initialpose the place where the robot is.
@@ -69,20 +68,17 @@ class PoseReader {
   exchange::GoalOrders orders_;
 };
 
-/// A participant with a writer for each topic that is passed on ("/scan" is rt/scan, as ROS 2 names it), and, where it
-/// takes goals, readers of rt/goal_pose and rt/initialpose. Reliable, the last ten; /map is kept for newcomers. Thread:
-/// one.
+/// A participant with a writer for each topic that is passed on ("/scan" is rt/scan), and, where it takes goals,
+/// readers of rt/goal_pose and rt/initialpose. Reliable, the last ten; /map is kept for newcomers. Thread: one.
 class DdsTopics {
  public:
-  /// `space` goes before every topic that is written, "/jaywalk" say. Throws StartupError where DDS finds no network it
-  /// can use.
+  /// `space` goes before every topic that is written, "/jaywalk" say. Throws StartupError where DDS finds no network.
   DdsTopics(std::uint32_t domain, bool takes_goals, const std::string& space = "");
   ~DdsTopics();
   DdsTopics(const DdsTopics&) = delete;
   DdsTopics& operator=(const DdsTopics&) = delete;
 
-  /// Whether publish() takes messages of this topic. It takes "/scan" and also the scan of a named scanner,
-  /// "/scan_rear".
+  /// Whether publish() takes messages of this topic; "/scan_rear", of a named scanner, as well as "/scan".
   [[nodiscard]] static bool passes(const std::string& topic);
   /// `message`: CDR behind its encapsulation header. False where its bytes do not fit the topic's type: it is not sent.
   bool publish(const std::string& topic, std::string message);

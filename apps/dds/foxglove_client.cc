@@ -46,8 +46,8 @@ Address address_of(const std::string& url) {
 
 }  // namespace
 
-FoxgloveClient::FoxgloveClient(const std::string& url, const std::string& fingerprint, Wants wants)
-    : url_(url), wants_(std::move(wants)), socket_(asio::ip::tcp::socket(io_)) {
+FoxgloveClient::FoxgloveClient(const std::string& url, const std::string& fingerprint)
+    : url_(url), socket_(asio::ip::tcp::socket(io_)) {
   const Address address = address_of(url);
   finish([&](auto done) { socket_.next_layer().next_layer().async_connect(address.at, done); });
   if (address.is_encrypted) begin_tls(fingerprint);
@@ -57,17 +57,12 @@ FoxgloveClient::FoxgloveClient(const std::string& url, const std::string& finger
   socket_.read_message_max(kMostPayload);
   socket_.auto_fragment(false);
   finish([&](auto done) { socket_.async_handshake(address.host, address.target, done); });
-  send(true, Json({{"op", "advertise"},
-                   {"channels",
-                    {{{"id", kGoalChannel},
-                      {"topic", "/goal_pose"},
-                      {"encoding", "cdr"},
-                      {"schemaName", "geometry_msgs/msg/PoseStamped"}},
-                     {{"id", kPlaceChannel},
-                      {"topic", "/initialpose"},
-                      {"encoding", "cdr"},
-                      {"schemaName", "geometry_msgs/msg/PoseWithCovarianceStamped"}}}}})
-                 .dump());
+  const auto channel = [](std::uint32_t id, const char* topic, const char* type) {
+    return Json{{"id", id}, {"topic", topic}, {"encoding", "cdr"}, {"schemaName", type}};
+  };
+  const Json channels{channel(kGoalChannel, "/goal_pose", "geometry_msgs/msg/PoseStamped"),
+                      channel(kPlaceChannel, "/initialpose", "geometry_msgs/msg/PoseWithCovarianceStamped")};
+  send(true, Json({{"op", "advertise"}, {"channels", channels}}).dump());
 }
 
 template <class Begin>
@@ -129,7 +124,7 @@ void FoxgloveClient::take_text(std::string_view text) {
   Json wishes = Json::array();
   for (const Json& channel : json.value("channels", Json::array())) {
     const std::string topic = channel.value("topic", "");
-    if (!wants_(topic) || channel.value("encoding", "") != "cdr") continue;
+    if (!DdsTopics::passes(topic) || channel.value("encoding", "") != "cdr") continue;
     const auto id = static_cast<std::uint32_t>(subscribed_.size() + 1);
     subscribed_[id] = topic;
     wishes.push_back({{"id", id}, {"channelId", channel.value("id", 0U)}});

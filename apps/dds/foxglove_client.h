@@ -5,7 +5,6 @@
 #include <boost/beast/websocket.hpp>
 #include <chrono>
 #include <cstdint>
-#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -20,16 +19,13 @@ struct FoxgloveMessage {
   std::string bytes;  ///< CDR, behind its encapsulation header
 };
 
-/// Whether a topic is to be subscribed to.
-using Wants = std::function<bool(const std::string& topic)>;
-
 /// A live view of a run, from another process. Thread: one.
 class FoxgloveClient {
  public:
   /// `url` as `jaywalk ... --view` prints it: http://ADDRESS:PORT/, with ?token= where one is wanted, or https:// with
-  /// the certificate's `fingerprint`; IPv4. Subscribes to those topics of the run that it `wants`. Throws StartupError
-  /// where nothing answers there as it should.
-  FoxgloveClient(const std::string& url, const std::string& fingerprint, Wants wants);
+  /// the certificate's `fingerprint`; IPv4. Subscribes to the run's topics that DdsTopics passes on. Throws
+  /// StartupError where nothing answers there as it should.
+  FoxgloveClient(const std::string& url, const std::string& fingerprint);
 
   /// The next message that comes within `wait`. Throws StartupError when the run has ended or the connection is lost.
   [[nodiscard]] std::optional<FoxgloveMessage> next(std::chrono::milliseconds wait);
@@ -46,7 +42,6 @@ class FoxgloveClient {
   [[noreturn]] void lost(const std::string& cause) const;
 
   std::string url_;
-  Wants wants_;
   boost::asio::io_context io_;
   std::optional<boost::asio::ssl::context> tls_;
   boost::beast::websocket::stream<view::DoorStream> socket_;

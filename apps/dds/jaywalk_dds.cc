@@ -36,7 +36,7 @@ void greet(const Options& options) {
 
 void pass_run_on(const Options& options) {
   dds::DdsTopics topics(options.domain, options.takes_goals, options.space);
-  dds::FoxgloveClient live(options.from, options.fingerprint, dds::DdsTopics::passes);
+  dds::FoxgloveClient live(options.from, options.fingerprint);
   std::map<std::string, bool> refused;
   greet(options);
   while (!ends) {

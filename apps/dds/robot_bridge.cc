@@ -15,10 +15,6 @@ namespace {
 constexpr Duration kSilence = std::chrono::milliseconds(100);  // SAFETY 4
 constexpr Duration kStopping = std::chrono::seconds(1), kStopPeriod = std::chrono::milliseconds(50);
 
-Time time_of(const builtin_interfaces_msg_dds__Time_& stamp) {
-  return Time{std::chrono::seconds(stamp.sec_) + std::chrono::nanoseconds(stamp.nanosec_)};
-}
-
 exchange::ScanMessage in_fields(const sensor_msgs_msg_dds__LaserScan_& scan) {
   exchange::ScanMessage out;
   out.stamp = time_of(scan.header_.stamp_);
@@ -95,7 +91,7 @@ void RobotBridge::pass_in(std::chrono::milliseconds most) {
 void RobotBridge::pass_scans() {
   const std::string& topic = robot_.laser.topic;
   const auto pass = [&](const sensor_msgs_msg_dds__LaserScan_& scan, const dds_sample_info_t& about) {
-    const exchange::Arrival now(clock_.now(), wall_time(), written(about));
+    const exchange::Arrival now = arrival_of(about, clock_.now());
     if (!is_alone(scans_, topic)) return;
     const auto fitted = scan_feed_.take(in_fields(scan), now);
     if (!fitted) return complain(topic + ": a scan that is no newer than one before");
@@ -111,7 +107,7 @@ void RobotBridge::pass_odometry() {
   const std::string& topic = robot_.drive.ros.odometry;
   const auto pass = [&](const nav_msgs_msg_dds__Odometry_& odometry, const dds_sample_info_t& about) {
     if (!is_alone(odometry_, topic)) return;
-    const exchange::Arrival now(clock_.now(), wall_time(), written(about));
+    const exchange::Arrival now = arrival_of(about, clock_.now());
     const auto wheels = odometry_feed_.take(in_fields(odometry), now);
     if (!wheels) return complain(topic + ": a pose or twist that no robot has, or no newer than one before");
     tell_late(topic, wheels->stamp, now.ours);
@@ -131,7 +127,7 @@ void RobotBridge::tell_late(const std::string& topic, Time sent, Time now) {
 
 /// Two masters of one base would stop each other's stops (SAFETY 16).
 void RobotBridge::watch_commands() {
-  const auto tell = [&](const auto&) { send(clock_.now(), {.id = ros::kOtherMaster}); };
+  const auto tell = [&](const auto&, const auto&) { send(clock_.now(), {.id = ros::kOtherMaster}); };
   if (robot_.drive.ros.stamped)
     take_all<geometry_msgs_msg_dds__TwistStamped_>(others_commands_, tell);
   else
@@ -167,10 +163,9 @@ void RobotBridge::pass_out(std::chrono::milliseconds most) {
   if (const std::uint64_t alarms = ring->alarms(); std::exchange(alarms_, alarms) != alarms && ordered_ != kNever)
     publish({});
   ros::BaseMessage order;
-  for (auto took = ring->read(std::as_writable_bytes(std::span(&order, 1))); took != ros::SharedRing::Took::kNothing;
-       took = ring->read(std::as_writable_bytes(std::span(&order, 1)))) {
+  const auto bytes = std::as_writable_bytes(std::span(&order, 1));
+  for (auto took = ring->read(bytes); took != ros::SharedRing::Took::kNothing; took = ring->read(bytes))
     if (took == ros::SharedRing::Took::kMessage) obey(order);
-  }
   keep_stopped(clock_.now());
 }
 

@@ -6,12 +6,12 @@
 #include <zstd.h>
 
 #include <algorithm>
-#include <array>
+#include <cstring>
 #include <memory>
 #include <utility>
 #include <vector>
 
-#include "hal/text_file.h"
+#include "hal/shown_text.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk::exchange {
@@ -40,6 +40,24 @@ bool unpack_bz2(std::string_view packed, std::string& out) {
   return code == BZ_OK && bytes == out.size();
 }
 
+/// Unpacks zstd's frames that do not say how much comes out, at most `most` bytes.
+std::optional<std::string> unpack_frames(std::string_view packed, std::size_t most) {
+  const std::unique_ptr<ZSTD_DStream, decltype(&ZSTD_freeDStream)> stream(ZSTD_createDStream(), &ZSTD_freeDStream);
+  std::string out;
+  std::string block(ZSTD_DStreamOutSize(), '\0');
+  ZSTD_inBuffer in{packed.data(), packed.size(), 0};
+  std::size_t left = 1;  // 0 when a frame is whole
+  while (in.pos < in.size || left != 0) {
+    ZSTD_outBuffer to{block.data(), block.size(), 0};
+    const std::size_t before = in.pos;
+    left = ZSTD_decompressStream(stream.get(), &to, &in);
+    if (ZSTD_isError(left) != 0U || (to.pos == 0 && in.pos == before)) return std::nullopt;
+    if (out.size() + to.pos > most) return std::nullopt;
+    out.append(block.data(), to.pos);
+  }
+  return out;
+}
+
 constexpr std::string_view kZstdMagic = "\x28\xB5\x2F\xFD";
 
 enum class Format { kNone, kMcap, kRos1, kSqlite, kZstd };
@@ -59,13 +77,12 @@ Format format_of(const std::filesystem::path& file) {
 /// is meant by its other name.
 std::filesystem::path inside(const std::filesystem::path& folder, const std::string& name) {
   const std::filesystem::path file = folder / std::filesystem::path(name).filename();
-  if (std::filesystem::exists(file)) return file;
   std::filesystem::path other = file;
   if (file.extension() == ".zstd")
     other.replace_extension();
   else
     other += ".zstd";
-  return std::filesystem::exists(other) ? other : file;
+  return !std::filesystem::exists(file) && std::filesystem::exists(other) ? other : file;
 }
 
 /// The files that a rosbag2 folder's list names; none where it is empty, as loss of power leaves it.
@@ -99,7 +116,7 @@ class UnpackedFile {
   explicit UnpackedFile(const std::filesystem::path& packed)
       : path_(std::filesystem::temp_directory_path() / ("jaywalk_bag_" + std::to_string(getpid()))) {
     ByteFile file(packed, "take an undamaged copy of it");
-    const auto bytes = unpack_zstd(file.read(0, file.size()), 4 * kMostRecordBytes);
+    const auto bytes = unpack_frames(file.read(0, file.size()), 4 * kMostRecordBytes);
     if (!bytes) file.refuse(0, "it does not unpack");
     write_text(path_, *bytes, "free some space, or set TMPDIR");
   }
@@ -138,7 +155,7 @@ std::string read_file(const std::filesystem::path& file, const BagSink& sink) {
 BagSink unpacking(const BagSink& sink) {
   return [&sink](const BagMessage& message) {
     if (message.wire != Wire::kCdr || message.bytes.rfind(kZstdMagic, 0) != 0) return sink(message);
-    const auto unpacked = unpack_zstd(message.bytes, kMostRecordBytes);
+    const auto unpacked = unpack_frames(message.bytes, kMostRecordBytes);
     BagMessage whole = message;
     whole.bytes = unpacked ? std::string_view(*unpacked) : std::string_view();
     sink(whole);
@@ -190,43 +207,24 @@ void ByteFile::refuse(std::uint64_t at, const std::string& cause) const {
   throw StartupError(name() + ": byte " + std::to_string(at) + ": " + cause, remedy_);
 }
 
-bool can_unpack(std::string_view method) {
-  constexpr std::array<std::string_view, 5> kMethods{"", "none", "zstd", "lz4", "bz2"};
-  return std::find(kMethods.begin(), kMethods.end(), method) != kMethods.end();
-}
-
-std::optional<std::string> unpack(std::string_view method, std::string_view packed, std::size_t bytes) {
-  if (method.empty() || method == "none")
-    return packed.size() == bytes ? std::optional<std::string>(packed) : std::nullopt;
-  std::string out(bytes, '\0');
-  const bool whole = method == "zstd"  ? ZSTD_decompress(out.data(), bytes, packed.data(), packed.size()) == bytes
-                     : method == "lz4" ? unpack_lz4(packed, out)
-                     : method == "bz2" ? unpack_bz2(packed, out)
-                                       : false;
-  return whole ? std::optional(std::move(out)) : std::nullopt;
-}
-
-std::optional<std::string> unpack_zstd(std::string_view packed, std::size_t most) {
-  const std::unique_ptr<ZSTD_DStream, decltype(&ZSTD_freeDStream)> stream(ZSTD_createDStream(), &ZSTD_freeDStream);
-  std::string out;
-  std::string block(ZSTD_DStreamOutSize(), '\0');
-  ZSTD_inBuffer in{packed.data(), packed.size(), 0};
-  std::size_t left = 1;  // 0 when a frame is whole
-  while (in.pos < in.size || left != 0) {
-    ZSTD_outBuffer to{block.data(), block.size(), 0};
-    const std::size_t before = in.pos;
-    left = ZSTD_decompressStream(stream.get(), &to, &in);
-    if (ZSTD_isError(left) != 0U || (to.pos == 0 && in.pos == before)) return std::nullopt;
-    if (out.size() + to.pos > most) return std::nullopt;
-    out.append(block.data(), to.pos);
+std::string ByteFile::unpacked(std::uint64_t at, std::string_view method, std::string_view packed,
+                               std::uint64_t bytes) const {
+  if (bytes > kMostRecordBytes) refuse(at, "a chunk of " + std::to_string(bytes) + " bytes");
+  if (method.empty() || method == "none") {
+    if (packed.size() != bytes) refuse(at, "a chunk that does not unpack");
+    return std::string(packed);
   }
-  return out;
-}
-
-std::string packed_zstd(std::string_view bytes) {
-  std::string out(ZSTD_compressBound(bytes.size()), '\0');
-  out.resize(
-      ZSTD_compress(out.data(), out.size(), bytes.data(), bytes.size(), 1));  // with that much room it cannot fail
+  std::string out(bytes, '\0');
+  bool whole = false;
+  if (method == "zstd")
+    whole = ZSTD_decompress(out.data(), bytes, packed.data(), packed.size()) == bytes;
+  else if (method == "lz4")
+    whole = unpack_lz4(packed, out);
+  else if (method == "bz2")
+    whole = unpack_bz2(packed, out);
+  else
+    refuse(at, "a chunk packed with '" + shown(method) + "', which is not known here");
+  if (!whole) refuse(at, "a chunk that does not unpack");
   return out;
 }
 

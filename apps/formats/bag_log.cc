@@ -22,68 +22,57 @@ constexpr double kSamePeriod = 1.05;  // stamps and drivers' figures are that ex
 
 /// All that a replay could need of a recording, by topic.
 struct BagContents {
-  std::map<std::string, std::vector<ScanMessage>> scans;
-  std::map<std::string, std::vector<OdometryMessage>> odometry;
-  sim::RecordedLog unreadable;  ///< counts what was left out
-  FrameTree frames;
-  std::map<std::string, std::string> others;  ///< topics of other types, with those
-};
+  std::string file;
+  std::map<std::string, std::vector<ScanMessage>> scans = {};
+  std::map<std::string, std::vector<OdometryMessage>> odometry = {};
+  sim::RecordedLog unreadable = {};  ///< counts what was left out
+  FrameTree frames = {};
+  std::map<std::string, std::string> others = {};    ///< topics of other types, with those
+  std::map<std::string, std::size_t> messages = {};  ///< how many were read or left out of each topic
 
-class Collector {
- public:
-  Collector(std::string file, BagContents& found) : file_(std::move(file)), found_(found) {}
-
-  void operator()(const BagMessage& message) {
+  void add(const BagMessage& message) {
     const std::string topic(message.topic);
-    const bool foxglove = message.wire == Wire::kProtobuf;
-    if (foxglove && message.type == "foxglove.LaserScan") {
-      take(read_foxglove_scan(message.bytes), found_.scans[topic], message);
-    } else if (foxglove && message.type == "foxglove.FrameTransform") {
-      std::vector<TransformMessage> transforms;
-      take(read_foxglove_transform(message.bytes), transforms, message);
-      add(transforms);
-    } else if (foxglove && message.type == "foxglove.FrameTransforms") {
-      std::vector<std::vector<TransformMessage>> transforms;
-      take(read_foxglove_transforms(message.bytes), transforms, message);
-      for (const auto& some : transforms) add(some);
-    } else if (message.wire != Wire::kCdr && message.wire != Wire::kRos1) {
-      found_.others.emplace(topic, message.type);
-    } else if (message.type == kScans) {
-      take(read_scan(message.bytes, message.wire), found_.scans[topic], message);
-    } else if (message.type == kOdometry) {
-      take(read_odometry(message.bytes, message.wire), found_.odometry[topic], message);
-    } else if (message.type == "tf2_msgs/TFMessage" || message.type == "tf/tfMessage") {
-      std::vector<std::vector<TransformMessage>> transforms;
-      take(read_transforms(message.bytes, message.wire), transforms, message);
-      for (const auto& some : transforms) add(some);
-    } else {
-      found_.others.emplace(topic, message.type);
-    }
+    const std::string_view type = message.type, bytes = message.bytes;
+    const Wire wire = message.wire;
+    const bool ros = wire == Wire::kCdr || wire == Wire::kRos1, foxglove = wire == Wire::kProtobuf;
+    if (ros && type == kScans)
+      take(read_scan(bytes, wire), scans[topic], message);
+    else if (foxglove && type == "foxglove.LaserScan")
+      take(read_foxglove_scan(bytes), scans[topic], message);
+    else if (ros && type == kOdometry)
+      take(read_odometry(bytes, wire), odometry[topic], message);
+    else if (ros && (type == "tf2_msgs/TFMessage" || type == "tf/tfMessage"))
+      take(read_transforms(bytes, wire), message);
+    else if (foxglove && type == "foxglove.FrameTransform")
+      take(read_foxglove_transform(bytes), message);
+    else if (foxglove && type == "foxglove.FrameTransforms")
+      take(read_foxglove_transforms(bytes), message);
+    else
+      others.emplace(topic, type);
   }
 
- private:
-  void add(const std::vector<TransformMessage>& transforms) {
-    for (const TransformMessage& transform : transforms) found_.frames.add(transform);
+  /// Number of the message on its topic; counts it as left out where it could not be read.
+  std::size_t numbered(const BagMessage& message, bool is_read) {
+    const std::size_t number = ++messages[std::string(message.topic)];
+    if (!is_read)
+      unreadable.refuse({file + ": " + shown(message.topic), number, "message"},
+                        "its bytes are no " + shown(message.type));
+    return number;
+  }
+  void take(const std::optional<std::vector<TransformMessage>>& read, const BagMessage& message) {
+    (void)numbered(message, read.has_value());
+    if (!read) return;
+    for (const TransformMessage& transform : *read) frames.add(transform);
   }
   template <class Read>
   void take(std::optional<Read> read, std::vector<Read>& list, const BagMessage& message) {
-    const std::size_t number = ++numbers_[std::string(message.topic)];
-    if (!read) {
-      const sim::LogPlace place{file_ + ": " + shown(message.topic), number, "message"};
-      found_.unreadable.refuse(place, "its bytes are no " + shown(message.type));
-      return;
-    }
-    if constexpr (requires { read->stamp; }) {
-      if (read->stamp == Time{}) read->stamp = message.logged;
-      read->number = number;
-      read->logged = message.logged;
-    }
+    const std::size_t number = numbered(message, read.has_value());
+    if (!read) return;
+    if (read->stamp == Time{}) read->stamp = message.logged;
+    read->number = number;
+    read->logged = message.logged;
     list.push_back(std::move(*read));
   }
-
-  std::string file_;
-  BagContents& found_;
-  std::map<std::string, std::size_t> numbers_;
 };
 
 /// "/a (nav_msgs/Path), /b (...)", the first dozen.
@@ -172,7 +161,6 @@ float farthest_of(const std::vector<ScanMessage>& messages) {
 void add_scans(sim::RecordedLog& log, const std::string& name, const std::vector<ScanMessage>& messages,
                bool upside_down) {
   sim::LogPlace place{name, 0, "message"};
-  sim::LogScans scans(log);
   const float farthest_m = farthest_of(messages);
   for (const ScanMessage& message : messages) {
     place.number = message.number;
@@ -180,16 +168,16 @@ void add_scans(sim::RecordedLog& log, const std::string& name, const std::vector
     std::vector<double> ranges;
     for (std::size_t k = 0; k < message.range_m.size(); k += every) ranges.push_back(message.range_m[k]);
     const float sense = upside_down ? -1.0F : 1.0F;
-    scans.add(place,
-              {.stamp = message.stamp,
-               .beams = static_cast<std::uint32_t>(ranges.size()),
-               .first_angle_rad = sense * message.first_angle_rad,
-               .angle_step_rad = sense * message.angle_step_rad * static_cast<float>(every),
-               .range_min_m = message.range_min_m,
-               .range_max_m = std::isinf(message.range_max_m) ? farthest_m : message.range_max_m},
-              ranges, sim::kNoLimit);
+    sim::add_scan(log, place,
+                  {.stamp = message.stamp,
+                   .beams = static_cast<std::uint32_t>(ranges.size()),
+                   .first_angle_rad = sense * message.first_angle_rad,
+                   .angle_step_rad = sense * message.angle_step_rad * static_cast<float>(every),
+                   .range_min_m = message.range_min_m,
+                   .range_max_m = std::isinf(message.range_max_m) ? farthest_m : message.range_max_m},
+                  ranges, sim::kNoLimit);
   }
-  (void)scans.settle_times(place);
+  (void)sim::settle_times(log, place);
 }
 
 /// True where most messages have an orientation; the others are left out.
@@ -209,21 +197,16 @@ Duration usual_delay(const std::vector<Message>& messages) {
   return *middle;
 }
 
-/// Time by which the odometry's clock is behind that of the scans, by when both were recorded; 0 where what remains is
-/// the way of the messages: a scan is recorded a sweep after its stamp, or at once.
-Duration clock_lag(const std::vector<ScanMessage>& scans, const std::vector<OdometryMessage>& odometry,
-                   double rate_hz) {
-  constexpr Duration kWay = std::chrono::milliseconds(50);
-  const Duration lag = usual_delay(odometry) - usual_delay(scans);
-  const Duration sweep = duration_from_seconds(rate_hz > 0.0 ? 1.0 / rate_hz : 0.0);
-  return lag > kWay || lag < -kWay - sweep ? lag : Duration{0};
-}
-
+/// Moves the odometry's stamps by what its clock is behind that of the scans, by when both were recorded. Less than the
+/// way of the messages may take is no lag: a scan is recorded a sweep after its stamp, or at once.
 void use_times_of_recording(sim::RecordedLog& log, const std::string& name, const std::vector<ScanMessage>& scans,
                             std::vector<OdometryMessage>& odometry) {
+  constexpr Duration kWay = std::chrono::milliseconds(50);
   if (odometry.empty()) return;
-  const Duration lag = clock_lag(scans, odometry, log.laser().rate_hz);
-  if (lag == Duration{0}) return;
+  const Duration lag = usual_delay(odometry) - usual_delay(scans);
+  const double rate_hz = log.laser().rate_hz;
+  const Duration sweep = duration_from_seconds(rate_hz > 0.0 ? 1.0 / rate_hz : 0.0);
+  if (lag <= kWay && lag >= -kWay - sweep) return;
   for (OdometryMessage& message : odometry) message.stamp += lag;
   log.add_remark(name + formatted(": its clock is %.3f s behind", to_seconds(lag)) +
                  " that of the scans, by the times of recording, which count");
@@ -264,8 +247,8 @@ Duration sweep_of(sim::RecordedLog& log, const std::string& name, const std::vec
 
 sim::RecordedLog load_bag(const std::filesystem::path& path, const BagOptions& options) {
   const std::string file = path.string();
-  BagContents found;
-  const std::string left_out = read_bag(path, Collector(file, found));
+  BagContents found{.file = file};
+  const std::string left_out = read_bag(path, [&found](const BagMessage& message) { found.add(message); });
   const std::string scan_topic = choose(file, found.scans, options.scan_topic, "--scan-topic", kScans);
   const std::string odom_topic = choose(file, found.odometry, options.odom_topic, "--odom-topic", kOdometry);
   if (scan_topic.empty()) {

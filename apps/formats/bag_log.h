@@ -19,10 +19,9 @@ struct BagOptions {
 /// Topics are told by their types; more than one of a type, and none of LaserScan, is an error that lists them. The
 /// mount comes from the frames (/tf_static, and what never moves in /tf) between the odometry's child, else base_link
 /// or base_footprint, and the scan's. Stamps are the headers', or where those are 0 the times of recording. Scans of
-/// more than 2,048 beams are thinned out evenly; what is odd is left out, counted and told, as load_scan_odom() does.
-/// Sweeps longer than from scan to scan are not believed (sweeps of RecordedLog::spinning_sweep instead). What was
-/// chosen is in the log's remark. Throws StartupError as read_bag() and load_scan_odom() do, and where the laser is not
-/// level.
+/// more than 2,048 beams are thinned out evenly; sweeps longer than from scan to scan give way to
+/// RecordedLog::spinning_sweep. The log's remark says what was chosen. Leaves out and throws as read_bag() and
+/// load_scan_odom() do; throws StartupError where the laser is not level, too.
 [[nodiscard]] sim::RecordedLog load_bag(const std::filesystem::path& path, const BagOptions& options);
 
 }  // namespace jaywalk::exchange

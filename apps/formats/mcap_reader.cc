@@ -4,7 +4,6 @@
 #include "apps/formats/bag_file.h"
 #include "apps/formats/mcap_writer.h"
 #include "apps/formats/wire_reader.h"
-#include "hal/shown_text.h"
 
 namespace jaywalk::exchange {
 namespace {
@@ -23,13 +22,6 @@ Wire wire_of(std::string_view encoding) {
   return encoding == "protobuf" ? Wire::kProtobuf : Wire::kOther;
 }
 
-/// "sensor_msgs/msg/LaserScan" is ROS 2's way to say it.
-std::string ros1_name(std::string_view type) {
-  const std::size_t msg = type.find("/msg/");
-  if (msg == std::string_view::npos) return std::string(type);
-  return std::string(type.substr(0, msg)).append(type.substr(msg + 4));
-}
-
 /// The records of a file from its begin to the end of its data.
 class McapFile {
  public:
@@ -44,12 +36,14 @@ class McapFile {
   /// The next record's head; false at the end of the data, and where a file that was cut has no whole one left.
   bool next() {
     at_ = next_;
-    if (is_cut_ && !is_whole()) return false;
+    const std::uint64_t left = file_.size() - at_;
+    if (is_cut_ && left < kRecordHead) return false;
     const std::string head = file_.read(at_, kRecordHead);
     WireReader in(head);
     op_ = in.number<std::uint8_t>();
     bytes_ = in.u64();
-    if (bytes_ > file_.size() - at_ - kRecordHead) file_.refuse(at_, "a record that is longer than the file");
+    if (is_cut_ && bytes_ > left - kRecordHead) return false;
+    if (bytes_ > left - kRecordHead) refuse("a record that is longer than the file");
     next_ = at_ + kRecordHead + bytes_;
     if (op_ == kFooter) refuse("the footer comes before the end of the data");
     return op_ != kDataEnd;
@@ -67,6 +61,9 @@ class McapFile {
     crc_ = crc_of(all, crc_);
     return all.substr(kRecordHead);
   }
+  [[nodiscard]] std::string unpacked(std::string_view method, std::string_view packed, std::uint64_t bytes) const {
+    return file_.unpacked(at_, method, packed, bytes);
+  }
   void check_data_end() {
     const std::string body = file_.read(at_ + kRecordHead, bytes_);
     const std::uint32_t said = WireReader(body).u32();
@@ -75,13 +72,6 @@ class McapFile {
   [[noreturn]] void refuse(const std::string& cause) const { file_.refuse(at_, cause); }
 
  private:
-  [[nodiscard]] bool is_whole() {
-    const std::uint64_t left = file_.size() - at_;
-    if (left < kRecordHead) return false;
-    const std::string head = file_.read(at_, kRecordHead);
-    return WireReader(std::string_view(head).substr(1)).u64() <= left - kRecordHead;
-  }
-
   ByteFile file_;
   bool is_cut_ = false;
   std::uint64_t at_ = 0, next_ = 0, bytes_ = 0;
@@ -132,12 +122,9 @@ class McapMessages {
     const std::string_view method = in.sized();
     const std::string_view packed = in.take(in.u64());
     if (!in.ok()) return;
-    if (!can_unpack(method)) file_.refuse("a chunk packed with '" + shown(method) + "', which is not known here");
-    if (bytes > kMostRecordBytes) file_.refuse("a chunk of " + std::to_string(bytes) + " bytes");
-    const auto unpacked = unpack(method, packed, bytes);
-    if (!unpacked) file_.refuse("a chunk that does not unpack");
-    if (crc != 0 && crc_of(*unpacked) != crc) file_.refuse("a chunk's check sum is wrong");
-    WireReader records(*unpacked);
+    const std::string unpacked = file_.unpacked(method, packed, bytes);
+    if (crc != 0 && crc_of(unpacked) != crc) file_.refuse("a chunk's check sum is wrong");
+    WireReader records(unpacked);
     while (!records.empty()) {
       const auto op = records.number<std::uint8_t>();
       const std::string_view body = records.take(records.u64());
@@ -151,6 +138,12 @@ class McapMessages {
   std::map<std::uint16_t, std::string> schemas_;
   std::map<std::uint16_t, Channel> channels_;
 };
+
+bool is_mcap(const std::filesystem::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::string head(kMcapMagic.size(), '\0');
+  return in.read(head.data(), static_cast<std::streamsize>(head.size())) && head == kMcapMagic;
+}
 
 }  // namespace
 
@@ -171,7 +164,8 @@ std::string read_mcap(const std::filesystem::path& path, const BagSink& sink) {
   return file.cut_at() + ": the " + std::to_string(passed) + " whole messages before count\n";
 }
 
-Attachment find_attachment(const std::filesystem::path& path, std::string_view name) {
+FilePart find_attachment(const std::filesystem::path& path, std::string_view name) {
+  if (!is_mcap(path)) return {0, 0};
   McapFile file(path);
   while (file.next()) {
     if (file.op() != kAttachment) continue;
@@ -187,13 +181,7 @@ Attachment find_attachment(const std::filesystem::path& path, std::string_view n
       file.refuse("an attachment's check sum is wrong");
     if (said == name) return {file.begin() + before, bytes};
   }
-  return {};
-}
-
-bool is_mcap(const std::filesystem::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  std::string head(kMcapMagic.size(), '\0');
-  return in.read(head.data(), static_cast<std::streamsize>(head.size())) && head == kMcapMagic;
+  return {0, 0};
 }
 
 }  // namespace jaywalk::exchange

@@ -21,11 +21,11 @@ class McapWriter {
   explicit McapWriter(const std::string& file);
 
   /// A topic of messages of one type in CDR; `schema`: its definition as ROS 2 writes it; `qos`: rosbag2's
-  /// profile of it. Returns its number.
-  std::uint16_t add_channel(const std::string& topic, const std::string& type, const std::string& schema,
-                            const std::string& qos);
-  /// One message, its stamp not before 0.
-  void write(std::uint16_t channel, Time stamp, std::string_view message);
+  /// profile of it.
+  void add_channel(const std::string& topic, const std::string& type, const std::string& schema,
+                   const std::string& qos);
+  /// One message, its stamp not before 0. `topic`: by the order in which they were added, from 0.
+  void write(std::size_t topic, Time stamp, std::string_view message);
   /// A whole file beside the messages, under its own name. Throws StartupError where it cannot be read.
   void attach(const std::filesystem::path& file);
   /// Writes the summary. Throws StartupError when the disk did not take all of the file.
@@ -38,17 +38,12 @@ class McapWriter {
   [[nodiscard]] const std::vector<Topic>& topics() const { return topics_; }
   [[nodiscard]] std::uint64_t messages() const { return messages_; }
   /// Of the first message and the last, ns.
-  [[nodiscard]] std::uint64_t first_ns() const { return messages_ == 0 ? 0 : first_ns_; }
+  [[nodiscard]] std::uint64_t first_ns() const { return first_ns_; }
   [[nodiscard]] std::uint64_t last_ns() const { return last_ns_; }
 
  private:
-  struct ChunkIndex {
-    std::uint64_t first_ns, last_ns, offset, length, index_length, packed_size, size;
-    std::map<std::uint16_t, std::uint64_t> index_offsets;
-  };
   void put(std::string_view bytes);
   void put_chunk();
-  [[nodiscard]] std::string index_record(const ChunkIndex& chunk) const;
   [[nodiscard]] std::string statistics() const;
 
   std::string file_;
@@ -58,14 +53,11 @@ class McapWriter {
   std::vector<Topic> topics_;
   std::string chunk_;
   std::uint64_t chunk_first_ns_ = 0, chunk_last_ns_ = 0;
-  std::map<std::uint16_t, std::string> message_index_;  ///< of the chunk at hand: time and offset of each message
-  std::vector<ChunkIndex> chunks_;
-  std::string attachment_indexes_;
-  std::uint32_t attachments_ = 0;
+  std::map<std::size_t, std::string> message_index_;  ///< of the chunk at hand: time and offset of each message
+  std::string chunk_indexes_, attachment_indexes_;    ///< records
+  std::uint32_t chunks_ = 0, attachments_ = 0;
   std::uint64_t messages_ = 0, first_ns_ = 0, last_ns_ = 0;
 };
-
-// What writer and reader of MCAP (mcap.dev/spec) share.
 
 inline constexpr std::string_view kMcapMagic{"\x89MCAP0\r\n", 8};
 

@@ -22,17 +22,18 @@ constexpr const char* kRosRemedy = "take an undamaged copy of it, or what 'rosba
 
 enum Op : std::uint8_t { kMessageData = 2, kBagHeader = 3, kIndexData = 4, kChunk = 5, kConnection = 7 };
 
-/// "name=value" fields, each behind its length; empty where they are none.
-std::map<std::string, std::string, std::less<>> fields_of(std::string_view bytes, bool& ok) {
-  std::map<std::string, std::string, std::less<>> fields;
+using Fields = std::map<std::string, std::string, std::less<>>;
+
+/// "name=value" fields, each behind its length; nothing where they are none.
+std::optional<Fields> fields_of(std::string_view bytes) {
+  Fields fields;
   WireReader in(bytes);
-  while (!in.empty() && in.ok()) {
+  while (!in.empty()) {
     const std::string_view field = in.sized();
     const std::size_t equals = field.find('=');
-    ok = ok && in.ok() && equals != std::string_view::npos;
-    if (ok) fields.emplace(field.substr(0, equals), field.substr(equals + 1));
+    if (!in.ok() || equals == std::string_view::npos) return std::nullopt;
+    fields.emplace(field.substr(0, equals), field.substr(equals + 1));
   }
-  ok = ok && in.ok();
   return fields;
 }
 
@@ -54,7 +55,6 @@ class Ros1Bag {
         if (!find_record()) file_.refuse(junk, "the file ends before what begins here, or that is no record");
         continue;
       }
-      at_ = record->begin;
       if (record->op == kBagHeader || record->op == kChunk || record->op == kConnection || record->op == kMessageData)
         take(record->fields, file_.read(record->end - record->bytes, record->bytes), true);
       at_ = record->end;
@@ -68,9 +68,8 @@ class Ros1Bag {
   struct Connection {
     std::string topic, type;
   };
-  using Fields = std::map<std::string, std::string, std::less<>>;
   struct Record {
-    std::uint64_t begin = 0, end = 0;
+    std::uint64_t end = 0;
     std::uint64_t bytes = 0;  ///< of its body, which ends it
     std::uint8_t op = 0;
     Fields fields;
@@ -81,12 +80,10 @@ class Ros1Bag {
     if (at + 4 > file_.size()) return std::nullopt;
     const std::uint64_t head_bytes = u32_at(at);
     if (head_bytes > kLongestHead || at + 8 + head_bytes > file_.size()) return std::nullopt;
-    bool ok = true;
-    Record record{at, 0, 0, 0, fields_of(file_.read(at + 4, head_bytes), ok)};
-    const auto op = record.fields.find("op");
-    if (!ok || op == record.fields.end() || op->second.size() != 1) return std::nullopt;
-    record.op = static_cast<std::uint8_t>(op->second.front());
-    record.bytes = u32_at(at + 4 + head_bytes);
+    std::optional<Fields> fields = fields_of(file_.read(at + 4, head_bytes));
+    if (!fields || (*fields)["op"].size() != 1) return std::nullopt;
+    const auto op = static_cast<std::uint8_t>((*fields)["op"].front());
+    Record record{0, u32_at(at + 4 + head_bytes), op, std::move(*fields)};
     const std::uint64_t body = at + 8 + head_bytes;
     if (record.op == kIndexData) record.bytes = bytes_of_index(record, body);
     record.end = body + record.bytes;
@@ -152,26 +149,20 @@ class Ros1Bag {
     ++chunks_;
     const auto found = fields.find("compression");
     const std::string method = found == fields.end() ? "none" : found->second;
-    if (!can_unpack(method)) refuse("a chunk packed with '" + shown(method) + "', which is not known here");
-    const auto bytes = number<std::uint32_t>(fields, "size");
-    if (bytes > kMostRecordBytes) refuse("a chunk of " + std::to_string(bytes) + " bytes");
-    const auto unpacked = unpack(method, body, bytes);
-    if (!unpacked) refuse("a chunk that does not unpack");
-    WireReader records(*unpacked);
+    const std::string unpacked = file_.unpacked(at_, method, body, number<std::uint32_t>(fields, "size"));
+    WireReader records(unpacked);
     while (!records.empty()) {
       const std::string_view head = records.sized(), inner = records.sized();
-      bool ok = records.ok();
-      const Fields inside = fields_of(head, ok);
-      if (!ok) refuse("a chunk with something else than records in it");
-      take(inside, inner, false);
+      const std::optional<Fields> inside = fields_of(head);
+      if (!records.ok() || !inside) refuse("a chunk with something else than records in it");
+      take(*inside, inner, false);
     }
   }
   void connect(const Fields& fields, std::string_view body) {
-    bool ok = true;
-    const Fields said = fields_of(body, ok);
-    const auto topic = fields.find("topic"), type = said.find("type");
-    if (!ok || topic == fields.end() || type == said.end()) refuse("a connection without topic or type");
-    connections_[number<std::uint32_t>(fields, "conn")] = {topic->second, type->second};
+    const std::optional<Fields> said = fields_of(body);
+    const auto topic = fields.find("topic");
+    if (!said || topic == fields.end() || !said->contains("type")) refuse("a connection without topic or type");
+    connections_[number<std::uint32_t>(fields, "conn")] = {topic->second, said->at("type")};
   }
   void pass_on(const Fields& fields, std::string_view body) {
     const auto connection = connections_.find(number<std::uint32_t>(fields, "conn"));

@@ -1,8 +1,10 @@
 #include "apps/formats/ros_input.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 namespace jaywalk::exchange {
 namespace {
@@ -12,43 +14,29 @@ constexpr std::size_t kLeastTransformBytes = 60;
 /// A quaternion's length may be so far off 1 by rounding; one that is farther off never was one.
 constexpr double kOffLength = 0.1;
 
-struct Header {
-  Time stamp = kNever;
-  std::string frame;
-};
-
-Time read_stamp(WireReader& in) {
-  const auto seconds = in.number<std::uint32_t>();  // ROS 2's are signed, and never below zero
-  const auto nanoseconds = in.number<std::uint32_t>();
-  return Time{std::chrono::seconds(seconds) + std::chrono::nanoseconds(nanoseconds)};
+/// Stamp and frame.
+std::pair<Time, std::string> read_header(WireReader& in, Wire wire) {
+  if (wire == Wire::kRos1) (void)in.u32();       // its running number
+  const std::chrono::seconds seconds(in.u32());  // ROS 2's are signed, and never below zero
+  const std::chrono::nanoseconds nanoseconds(in.u32());
+  return {Time{seconds + nanoseconds}, std::string(in.text())};
 }
 
-Header read_header(WireReader& in, Wire wire) {
-  if (wire == Wire::kRos1) (void)in.u32();  // its running number
-  Header header;
-  header.stamp = read_stamp(in);
-  header.frame = in.text();
-  return header;
-}
-
-struct ReadFrame {
-  SpatialFrame frame;
-  double length = 1.0;  ///< of its quaternion
-};
-
-ReadFrame read_frame(WireReader& in) {
+/// Also the length of its quaternion.
+std::pair<SpatialFrame, double> read_frame(WireReader& in) {
   const double x = in.f64(), y = in.f64(), z = in.f64();
   Eigen::Vector4d xyzw;
   for (int k = 0; k < 4; ++k) xyzw[k] = in.f64();
   if (xyzw.allFinite()) return {spatial_frame(x, y, z, xyzw), xyzw.norm()};
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-  return {spatial_frame(kNone, kNone, kNone, {0.0, 0.0, 0.0, 1.0})};
+  return {spatial_frame(kNone, kNone, kNone, {0.0, 0.0, 0.0, 1.0}), 1.0};
 }
 
-Pose2 in_the_plane(const ReadFrame& read) {
-  const Eigen::Vector3d at = read.frame.translation();
-  const bool turns = std::fabs(read.length - 1.0) < kOffLength;
-  return {at.x(), at.y(), turns ? heading_of(read.frame) : std::numeric_limits<double>::quiet_NaN()};
+Pose2 in_the_plane(const std::pair<SpatialFrame, double>& read) {
+  const auto& [frame, length] = read;
+  const bool turns = std::fabs(length - 1.0) < kOffLength;
+  return {frame.translation().x(), frame.translation().y(),
+          turns ? heading_of(frame) : std::numeric_limits<double>::quiet_NaN()};
 }
 
 constexpr double kSame = 1e-3;        // m, and of a direction's cosines
@@ -57,87 +45,76 @@ constexpr std::size_t kDeepest = 64;  // frames in one another: more is a circle
 
 enum WireType : std::uint8_t { kVarint = 0, kEightBytes = 1, kSized = 2, kFourBytes = 5 };
 
-/// The fields of a message one after the other (protobuf.dev/programming-guides/encoding).
-class ProtoFields {
- public:
-  explicit ProtoFields(std::string_view bytes) : in_(bytes) {}
-
-  /// The next field; false at the end, or where the bytes are no message.
-  bool next() {
-    if (in_.empty() || !ok()) return false;
-    const std::uint64_t key = varint();
-    number_ = static_cast<std::uint32_t>(key >> 3U);
-    bytes_ = {};
-    value_ = 0;
-    const auto type = static_cast<std::uint8_t>(key & 7U);
-    if (type == kVarint)
-      value_ = varint();
-    else if (type == kEightBytes)
-      bytes_ = in_.take(8);
-    else if (type == kSized)
-      bytes_ = in_.take(varint());
-    else if (type == kFourBytes)
-      bytes_ = in_.take(4);
-    else
-      known_ = false;
-    return ok();
-  }
-  [[nodiscard]] bool ok() const { return known_ && in_.ok(); }
-  [[nodiscard]] std::uint32_t number() const { return number_; }
-  [[nodiscard]] std::uint64_t value() const { return value_; }
-  [[nodiscard]] std::string_view bytes() const { return bytes_; }
-  [[nodiscard]] double f64() const { return WireReader(bytes_).number<double>(); }
-
- private:
-  std::uint64_t varint() {
-    std::uint64_t value = 0;
-    for (unsigned shift = 0; shift < 64; shift += 7) {
-      const auto byte = in_.number<std::uint8_t>();
-      value |= static_cast<std::uint64_t>(byte & 0x7FU) << shift;
-      if ((byte & 0x80U) == 0) return value;
-    }
-    known_ = false;
-    return 0;
-  }
-
-  WireReader in_;
-  bool known_ = true;
-  std::uint32_t number_ = 0;
-  std::uint64_t value_ = 0;
-  std::string_view bytes_;
+/// A field of a message (protobuf.dev/programming-guides/encoding): a value, or bytes.
+struct ProtoField {
+  std::uint32_t number = 0;
+  std::uint64_t value = 0;
+  std::string_view bytes = {};
+  [[nodiscard]] double f64() const { return WireReader(bytes).f64(); }
 };
 
-/// Each field of `bytes` to `take(fields)`; false where they are no message.
+/// Nothing where none begins there.
+std::optional<std::uint64_t> read_varint(WireReader& in) {
+  std::uint64_t value = 0;
+  for (unsigned shift = 0; shift < 64; shift += 7) {
+    const auto byte = in.number<std::uint8_t>();
+    value |= static_cast<std::uint64_t>(byte & 0x7FU) << shift;
+    if ((byte & 0x80U) == 0) return in.ok() ? std::optional(value) : std::nullopt;
+  }
+  return std::nullopt;
+}
+
+/// Nothing where the bytes are no message.
+std::optional<ProtoField> read_field(WireReader& in) {
+  const auto key = read_varint(in);
+  if (!key) return std::nullopt;
+  const std::uint64_t type = *key & 7U;
+  std::optional<std::uint64_t> said;  // the value, or how many bytes
+  if (type == kVarint || type == kSized) said = read_varint(in);
+  if (type == kEightBytes) said = 8;
+  if (type == kFourBytes) said = 4;
+  if (!said) return std::nullopt;
+  ProtoField field{.number = static_cast<std::uint32_t>(*key >> 3U)};
+  if (type == kVarint)
+    field.value = *said;
+  else
+    field.bytes = in.take(*said);
+  return in.ok() ? std::optional(field) : std::nullopt;
+}
+
+/// Each field of `bytes` to `take(field)`; false where they are no message.
 template <class Take>
 bool each_field(std::string_view bytes, const Take& take) {
-  ProtoFields fields(bytes);
-  while (fields.next()) take(fields);
-  return fields.ok();
+  WireReader in(bytes);
+  while (!in.empty()) {
+    const auto field = read_field(in);
+    if (!field) return false;
+    take(*field);
+  }
+  return true;
 }
 
 /// google.protobuf.Timestamp.
 Time read_time(std::string_view bytes, bool& ok) {
   std::uint64_t seconds = 0, nanoseconds = 0;
-  ok = each_field(bytes, [&](const ProtoFields& f) { (f.number() == 1 ? seconds : nanoseconds) = f.value(); }) && ok;
+  ok = each_field(bytes, [&](const ProtoField& f) { (f.number == 1 ? seconds : nanoseconds) = f.value; }) && ok;
   ok = ok && seconds <= 0xFFFFFFFFU && nanoseconds < 1'000'000'000U;
   return ok ? Time{std::chrono::seconds(seconds) + std::chrono::nanoseconds(nanoseconds)} : kNever;
 }
 
-/// Fields 1 to N, doubles: foxglove.Vector3, foxglove.Quaternion. What is not said is 0.
-template <std::size_t N>
-std::array<double, N> read_doubles(std::string_view bytes, bool& ok) {
-  std::array<double, N> all{};
-  ok = each_field(bytes,
-                  [&](const ProtoFields& f) {
-                    if (f.number() >= 1 && f.number() <= N && f.bytes().size() == 8) all[f.number() - 1] = f.f64();
-                  }) &&
-       ok;
+/// Fields 1 to 4, doubles: foxglove.Vector3, foxglove.Quaternion. What is not said is 0.
+std::array<double, 4> read_doubles(std::string_view bytes, bool& ok) {
+  std::array<double, 4> all{};
+  const auto take = [&](const ProtoField& f) {
+    if (f.number >= 1 && f.number <= all.size() && f.bytes.size() == 8) all[f.number - 1] = f.f64();
+  };
+  ok = each_field(bytes, take) && ok;
   return all;
 }
 
 SpatialFrame frame_of(std::string_view position, std::string_view rotation, bool& ok) {
-  const auto at = read_doubles<3>(position, ok);
-  const auto turn = read_doubles<4>(rotation, ok);
+  const auto at = read_doubles(position, ok);
+  const auto turn = read_doubles(rotation, ok);
   return spatial_frame(at[0], at[1], at[2], {turn[0], turn[1], turn[2], turn[3]});
 }
 
@@ -145,10 +122,8 @@ SpatialFrame frame_of(std::string_view position, std::string_view rotation, bool
 
 std::optional<ScanMessage> read_scan(std::string_view bytes, Wire wire) {
   WireReader in(bytes, wire);
-  const Header header = read_header(in, wire);
   ScanMessage scan;
-  scan.stamp = header.stamp;
-  scan.frame = header.frame;
+  std::tie(scan.stamp, scan.frame) = read_header(in, wire);
   scan.first_angle_rad = in.f32();
   (void)in.f32();  // the last beam's: the step and the number of beams say it as well
   scan.angle_step_rad = in.f32();
@@ -164,7 +139,7 @@ std::optional<ScanMessage> read_scan(std::string_view bytes, Wire wire) {
 std::optional<OdometryMessage> read_odometry(std::string_view bytes, Wire wire) {
   WireReader in(bytes, wire);
   OdometryMessage odometry;
-  odometry.stamp = read_header(in, wire).stamp;
+  odometry.stamp = read_header(in, wire).first;
   odometry.child_frame = in.text();
   odometry.pose = in_the_plane(read_frame(in));
   in.skip(kCovarianceBytes);
@@ -178,9 +153,9 @@ std::optional<std::vector<TransformMessage>> read_transforms(std::string_view by
   WireReader in(bytes, wire);
   std::vector<TransformMessage> transforms(in.count(kLeastTransformBytes));
   for (TransformMessage& transform : transforms) {
-    transform.parent = read_header(in, wire).frame;
+    transform.parent = read_header(in, wire).second;
     transform.child = in.text();
-    transform.parent_from_child = read_frame(in).frame;
+    transform.parent_from_child = read_frame(in).first;
   }
   return in.ok() ? std::optional(std::move(transforms)) : std::nullopt;
 }
@@ -195,25 +170,22 @@ void FrameTree::add(const TransformMessage& transform) {
   known->second.moves = known->second.moves || !same;
 }
 
-std::optional<SpatialFrame> FrameTree::find(const std::string& base, const std::string& frame) const {
-  std::map<std::string, SpatialFrame> above_frame;  // ancestor_from_frame, and of the frame itself
-  std::string at = bare(frame);
-  SpatialFrame here_from_frame = SpatialFrame::Identity();
-  for (std::size_t depth = 0; depth < kDeepest; ++depth) {
-    above_frame.emplace(at, here_from_frame);
+FrameTree::Chain FrameTree::above(const std::string& frame) const {
+  Chain chain{{bare(frame), SpatialFrame::Identity()}};
+  while (chain.size() < kDeepest) {
+    const auto& [at, at_from_frame] = chain.back();
     const auto up = parents_.find(at);
     if (up == parents_.end() || up->second.moves) break;
-    here_from_frame = up->second.parent_from_child * here_from_frame;
-    at = up->second.parent;
+    chain.emplace_back(up->second.parent, SpatialFrame(up->second.parent_from_child * at_from_frame));
   }
-  at = bare(base);
-  SpatialFrame here_from_base = SpatialFrame::Identity();
-  for (std::size_t depth = 0; depth < kDeepest; ++depth) {
-    if (const auto met = above_frame.find(at); met != above_frame.end()) return here_from_base.inverse() * met->second;
-    const auto up = parents_.find(at);
-    if (up == parents_.end() || up->second.moves) return std::nullopt;
-    here_from_base = up->second.parent_from_child * here_from_base;
-    at = up->second.parent;
+  return chain;
+}
+
+std::optional<SpatialFrame> FrameTree::find(const std::string& base, const std::string& frame) const {
+  const Chain above_frame = above(frame);
+  for (const auto& [at, at_from_base] : above(base)) {
+    const auto met = std::ranges::find(above_frame, at, &Chain::value_type::first);
+    if (met != above_frame.end()) return at_from_base.inverse() * met->second;
   }
   return std::nullopt;
 }
@@ -232,17 +204,16 @@ std::optional<ScanMessage> read_foxglove_scan(std::string_view bytes) {
   double first = 0.0, last = 0.0;
   std::string_view position, rotation;
   bool ok = true;
-  const bool read = each_field(bytes, [&](const ProtoFields& f) {
-    if (f.number() == 1) scan.stamp = read_time(f.bytes(), ok);
-    if (f.number() == 2) scan.frame = f.bytes();
-    if (f.number() == 3)
-      ok = each_field(f.bytes(), [&](const ProtoFields& p) { (p.number() == 1 ? position : rotation) = p.bytes(); }) &&
-           ok;
-    if (f.number() == 4) first = f.f64();
-    if (f.number() == 5) last = f.f64();
-    if (f.number() != 6) return;
-    WireReader ranges(f.bytes());
-    ok = ok && f.bytes().size() % sizeof(double) == 0;
+  const bool read = each_field(bytes, [&](const ProtoField& f) {
+    if (f.number == 1) scan.stamp = read_time(f.bytes, ok);
+    if (f.number == 2) scan.frame = f.bytes;
+    if (f.number == 3)
+      ok = each_field(f.bytes, [&](const ProtoField& p) { (p.number == 1 ? position : rotation) = p.bytes; }) && ok;
+    if (f.number == 4) first = f.f64();
+    if (f.number == 5) last = f.f64();
+    if (f.number != 6) return;
+    WireReader ranges(f.bytes);
+    ok = ok && f.bytes.size() % sizeof(double) == 0;
     while (!ranges.empty() && ranges.ok()) scan.range_m.push_back(static_cast<float>(ranges.number<double>()));
   });
   if (!read || !ok) return std::nullopt;
@@ -255,27 +226,27 @@ std::optional<ScanMessage> read_foxglove_scan(std::string_view bytes) {
   return ok ? std::optional(std::move(scan)) : std::nullopt;
 }
 
-std::optional<TransformMessage> read_foxglove_transform(std::string_view bytes) {
+std::optional<std::vector<TransformMessage>> read_foxglove_transform(std::string_view bytes) {
   TransformMessage transform;
   std::string_view position, rotation;
-  bool ok = each_field(bytes, [&](const ProtoFields& f) {
-    if (f.number() == 2) transform.parent = f.bytes();
-    if (f.number() == 3) transform.child = f.bytes();
-    if (f.number() == 4) position = f.bytes();
-    if (f.number() == 5) rotation = f.bytes();
+  bool ok = each_field(bytes, [&](const ProtoField& f) {
+    if (f.number == 2) transform.parent = f.bytes;
+    if (f.number == 3) transform.child = f.bytes;
+    if (f.number == 4) position = f.bytes;
+    if (f.number == 5) rotation = f.bytes;
   });
   transform.parent_from_child = frame_of(position, rotation, ok);
-  return ok ? std::optional(std::move(transform)) : std::nullopt;
+  return ok ? std::optional(std::vector{std::move(transform)}) : std::nullopt;
 }
 
 std::optional<std::vector<TransformMessage>> read_foxglove_transforms(std::string_view bytes) {
   std::vector<TransformMessage> all;
   bool ok = true;
-  const bool read = each_field(bytes, [&](const ProtoFields& f) {
-    if (f.number() != 1) return;
-    auto transform = read_foxglove_transform(f.bytes());
-    ok = ok && transform;
-    if (transform) all.push_back(std::move(*transform));
+  const bool read = each_field(bytes, [&](const ProtoField& f) {
+    if (f.number != 1) return;
+    const auto one = read_foxglove_transform(f.bytes);
+    ok = ok && one;
+    if (one) all.push_back(one->front());
   });
   return read && ok ? std::optional(std::move(all)) : std::nullopt;
 }

@@ -14,9 +14,7 @@
 
 namespace jaywalk::exchange {
 
-// Where a frame lies in another, in space: a transform as ROS's tf has it.
-
-/// parent_from_child: m, and a unit quaternion.
+/// Transform parent_from_child as ROS's tf has it; m.
 using SpatialFrame = Eigen::Transform<double, 3, Eigen::Isometry>;
 
 /// Of a translation (m) and a quaternion (x, y, z, w) of any length; one of length 0 turns nothing.
@@ -32,27 +30,27 @@ using SpatialFrame = Eigen::Transform<double, 3, Eigen::Isometry>;
   return atan2(frame.linear()(1, 0), frame.linear()(0, 0));
 }
 
+struct StampedMessage {
+  Time stamp = kNever;     ///< of the header; 0 where nobody set it
+  std::size_t number = 0;  ///< of its topic's messages, from 1
+  Time logged = kNever;    ///< when it was recorded
+};
+
 /// sensor_msgs/LaserScan, in metres, seconds and radians.
-struct ScanMessage {
-  Time stamp = kNever;  ///< of the header; 0 where nobody set it
+struct ScanMessage : StampedMessage {
   std::string frame;
   float first_angle_rad = 0.0F, angle_step_rad = 0.0F;
   float beam_step_s = 0.0F;
   float range_min_m = 0.0F, range_max_m = 0.0F;
   std::vector<float> range_m;
-  Pose2 frame_from_scan;   ///< where its origin lies; sensor_msgs has it in the frame's
-  std::size_t number = 0;  ///< of its topic's messages, from 1
-  Time logged = kNever;    ///< when it was recorded
+  Pose2 frame_from_scan;  ///< where its origin lies; sensor_msgs has it in the frame's
 };
 
 /// nav_msgs/Odometry, its pose and twist in the plane.
-struct OdometryMessage {
-  Time stamp = kNever;
+struct OdometryMessage : StampedMessage {
   std::string child_frame;
   Pose2 pose;  ///< its heading is NaN where the quaternion is none: 0 0 0 0, or an angle in place of one
   Twist2 twist;
-  std::size_t number = 0;  ///< of its topic's messages, from 1
-  Time logged = kNever;    ///< when it was recorded
 };
 
 /// One of tf2_msgs/TFMessage.
@@ -66,15 +64,11 @@ struct TransformMessage {
 [[nodiscard]] std::optional<OdometryMessage> read_odometry(std::string_view bytes, Wire wire);
 [[nodiscard]] std::optional<std::vector<TransformMessage>> read_transforms(std::string_view bytes, Wire wire);
 
-// Where a laser sits on a robot, from the frames of its recording.
-
 /// Frames by the frame that each lies in, as tf has them: a forest.
 class FrameTree {
  public:
-  /// What has a NaN says nothing. Names may begin with a slash. What says something else than before makes its frame
-  /// one that moves.
+  /// Ignores a NaN. Names may begin with a slash. A frame whose transform is not as before is one that moves.
   void add(const TransformMessage& transform);
-  [[nodiscard]] bool has(const std::string& frame) const { return parents_.count(bare(frame)) > 0; }
   /// base_from_frame, along the tree; nothing where no way joins them, or one of its frames moves.
   [[nodiscard]] std::optional<SpatialFrame> find(const std::string& base, const std::string& frame) const;
 
@@ -89,6 +83,10 @@ class FrameTree {
     SpatialFrame parent_from_child;
     bool moves = false;
   };
+  /// Frames with their transforms from the first: the frame itself, what it lies in, and on until one moves.
+  using Chain = std::vector<std::pair<std::string, SpatialFrame>>;
+  [[nodiscard]] Chain above(const std::string& frame) const;
+
   std::map<std::string, Edge> parents_;
 };
 
@@ -100,14 +98,12 @@ struct LaserMount {
 /// Nothing where its plane is not level to 10 degrees.
 [[nodiscard]] std::optional<LaserMount> level_mount(const SpatialFrame& base_from_laser);
 
-// Foxglove's own messages in protobuf (github.com/foxglove/foxglove-sdk, schemas/proto), as far as a replay needs them.
+// Foxglove's own messages in protobuf (github.com/foxglove/foxglove-sdk, schemas/proto); nothing where they are none.
 
-/// foxglove.LaserScan: it says no range limits (0 to infinity here) and no times of beams, but where its origin lies in
-/// its frame. Nothing where the bytes are no such message.
+/// foxglove.LaserScan: it says no range limits (0 to infinity here) and no times of beams, but where its origin lies.
 [[nodiscard]] std::optional<ScanMessage> read_foxglove_scan(std::string_view bytes);
-/// foxglove.FrameTransform.
-[[nodiscard]] std::optional<TransformMessage> read_foxglove_transform(std::string_view bytes);
-/// foxglove.FrameTransforms.
+/// foxglove.FrameTransform (one), foxglove.FrameTransforms.
+[[nodiscard]] std::optional<std::vector<TransformMessage>> read_foxglove_transform(std::string_view bytes);
 [[nodiscard]] std::optional<std::vector<TransformMessage>> read_foxglove_transforms(std::string_view bytes);
 
 }  // namespace jaywalk::exchange

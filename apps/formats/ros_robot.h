@@ -29,12 +29,10 @@ struct Arrival {
 /// of the same clock; the delay is at least their age by it. A message without a stamp has the time of its writing.
 class SentTimes {
  public:
-  /// Clocks that differ by more are not the same. Robots' clocks are synchronised (ROS 2 wants it for tf), or never
-  /// set.
+  /// Clocks that differ by more are not the same: robots' are synchronised (ROS 2 wants it for tf), or never set.
   static constexpr Duration kOneClock = std::chrono::seconds(10);
 
-  /// Nothing for a message that is no newer than one before: it was repeated, or overtaken. A stamp further back than
-  /// kOneClock is a clock that was set back.
+  /// Nothing for a message that is no newer than one before, unless by over kOneClock: a clock was set back.
   [[nodiscard]] std::optional<Time> sent(Time stamp, const Arrival& arrival) noexcept;
 
  private:
@@ -47,8 +45,7 @@ class SentTimes {
 class ScanFeed {
  public:
   explicit ScanFeed(const LaserModel& laser) noexcept : laser_(laser) {}
-  /// Without beams where it is no scan of a fan: no or too few ranges, angles or limits that are no numbers. Nothing
-  /// where it is no newer than one before.
+  /// Without beams where ranges, angles or limits make no fan. Nothing where it is no newer than one before.
   [[nodiscard]] std::optional<ros::ScanMessage> take(const ScanMessage& scan, const Arrival& arrival);
 
  private:

@@ -23,33 +23,9 @@ struct RobotFrames {
 };
 
 /// sensor_msgs/LaserScan. A beam that measured and found nothing is +inf, one that knows nothing NaN (REP 117).
-[[nodiscard]] std::string laser_scan(const LaserScan& scan, Time stamp, const std::string& frame = "laser");
-/// sensor_msgs/PointCloud2 of the hits, in the laser's frame.
-[[nodiscard]] std::string points(const LaserScan& scan, Time stamp, const std::string& frame = "laser");
-/// nav_msgs/Odometry: the wheels' pose in odom, and their speed.
-[[nodiscard]] std::string odometry(const RobotFrames& frames, const WheelState& wheels, const DriveModel& drive,
-                                   Time stamp);
-/// tf2_msgs/TFMessage: map to odom, odom to base_link.
-[[nodiscard]] std::string transforms(const RobotFrames& frames, Time stamp);
-/// tf2_msgs/TFMessage: base_link to each laser.
-[[nodiscard]] std::string static_transforms(const RobotModel& model, Time stamp);
+[[nodiscard]] std::string laser_scan(const LaserScan& scan, Time stamp, const std::string& frame);
 /// `word`, or `word`_front and so on of one of several scanners.
 [[nodiscard]] std::string of_scanner(const std::string& word, const RobotModel& model, std::size_t scanner);
-/// geometry_msgs/Twist: what the supervisor permitted.
-[[nodiscard]] std::string command(const TickRecord& tick);
-/// geometry_msgs/PoseStamped.
-[[nodiscard]] std::string goal_pose(const OperatorInput& input, Time stamp);
-/// nav_msgs/Path.
-[[nodiscard]] std::string path(const PlannedPath& path, Time stamp);
-/// visualization_msgs/MarkerArray: a cylinder a track, red where it moves, and a line ("expected") to where it will be
-/// in 2.5 s if it goes straight on.
-[[nodiscard]] std::string tracks(std::span<const Track> tracks, Time stamp);
-/// rosgraph_msgs/Clock.
-[[nodiscard]] std::string clock(Time now);
-/// diagnostic_msgs/DiagnosticArray: reasons, plan, gap.
-[[nodiscard]] std::string diagnostics(const TickRecord& tick, Time stamp);
-/// nav_msgs/OccupancyGrid of what is known: 100 occupied, 0 seen free, -1 unknown.
-[[nodiscard]] std::string occupancy(const EvidenceMap& map, Time stamp);
 
 /// The definition of a ROS 2 message type ("sensor_msgs/msg/LaserScan") and of all types in it, as MCAP's ros2msg wants
 /// it. Field names and types are those of ROS 2 Humble. Throws std::out_of_range for a type that is not among them.
@@ -90,7 +66,7 @@ inline constexpr std::array<RosTopic, 12> kRosTopics{{{"/scan", "sensor_msgs/msg
                                                       {"/tf_static", "tf2_msgs/msg/TFMessage", true},
                                                       {"/clock", "rosgraph_msgs/msg/Clock"}}};
 inline constexpr std::uint32_t kAllTopics = (1U << kRosTopics.size()) - 1U;
-/// From this number on come the scans of a robot's other scanners, which kAllTopics does not ask for.
+/// First number of a robot's other scanners' scans, which kAllTopics does not ask for.
 inline constexpr std::size_t kOtherScans = kRosTopics.size();
 
 /// A topic as it is published.
@@ -122,20 +98,19 @@ class RosTopics {
 
  private:
   void forget(std::uint32_t topics);
+  [[nodiscard]] bool wants(std::size_t topic) const { return (wanted_ >> topic & 1U) != 0; }
   [[nodiscard]] Time wall(Time loop) const { return loop + unix_from_loop_; }
   [[nodiscard]] RobotFrames frames_at(const TickRecord& t, const RobotModel& model);
-  void add_scan(const TickRecord& t, std::span<const Track> tracks, const RobotModel& model, std::uint32_t wanted);
-  void add_other_scans(const TickRecord& t, const RobotModel& model, std::uint32_t wanted);
-  void add_goal(const TickRecord& t, std::uint32_t wanted);
+  void add_scans(const TickRecord& t, std::span<const Track> tracks, const RobotModel& model);
+  void add_goal(const TickRecord& t);
   void add_diagnostics(const TickRecord& t);
 
   Push push_;
   Duration unix_from_loop_;
   std::optional<Odometry> odometry_;
   bool told_static_ = false;
-  std::uint32_t wanted_ = 0;  ///< last time
-  std::uint32_t scan_seen_ = 0;
-  std::array<std::uint32_t, kMostScanners - 1> others_seen_{};  ///< scans
+  std::uint32_t wanted_ = 0;                               ///< last time
+  std::array<std::uint32_t, kMostScanners> scans_seen_{};  ///< of each scanner
   OperatorInput goal_seen_;
   Reason reasons_ = Reason::kNone;
   Time plan_seen_ = kNever, mapped_ = kNever, told_ = kNever;

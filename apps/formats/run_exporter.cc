@@ -52,15 +52,14 @@ RunExporter::RunExporter(const std::filesystem::path& file, const ControlSetup& 
     : path_(file),
       file_(file.string()),
       model_(setup.model),
-      topics_([this](std::size_t topic, Time stamp,
-                     const std::string& message) { file_.write(channels_[topic], stamp, message); },
+      topics_([this](std::size_t topic, Time stamp, const std::string& message) { file_.write(topic, stamp, message); },
               setup.unix_from_loop) {
   for (const auto& [name, type] : exchange::topics_of(model_))
-    channels_.push_back(file_.add_channel(name, type, exchange::ros_schema(type), qos_of(name)));
+    file_.add_channel(name, type, exchange::ros_schema(type), qos_of(name));
 }
 
 void RunExporter::add(const TickRecord& t, const Tracker& tracker) {
-  const std::uint32_t every = (1U << channels_.size()) - 1U;
+  const std::uint32_t every = (1U << file_.topics().size()) - 1U;
   topics_.add(t, tracker.tracks(), t.path, model_, every);
   if (t.scan.beam_count > 0 && topics_.is_map_due(t.now)) topics_.add_map(tracker.still(), t.now);
 }

@@ -27,7 +27,6 @@ class RunExporter {
   std::filesystem::path path_;
   exchange::McapWriter file_;
   RobotModel model_;
-  std::vector<std::uint16_t> channels_;  ///< the file's number for each topic, those of other scanners at the end
   exchange::RosTopics topics_;
 };
 

@@ -1,12 +1,10 @@
 // rosbag2's first storage: the tables topics and messages of an SQLite 3 file.
 #include <sqlite3.h>
 
-#include <map>
 #include <memory>
 #include <string>
 
 #include "apps/formats/bag_file.h"
-#include "hal/text_file.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk::exchange {
@@ -66,40 +64,23 @@ class Database {
   std::unique_ptr<sqlite3, Closes> database_;
 };
 
-struct Topic {
-  std::string name, type;
-  bool cdr = false;
-};
-
-std::map<std::int64_t, Topic> topics_of(const Database& database) {
-  std::map<std::int64_t, Topic> topics;
-  Database::Rows rows(database, "SELECT id, name, type, serialization_format FROM topics");
-  while (rows.next()) {
-    std::string type(rows.bytes(2));
-    if (const std::size_t msg = type.find("/msg/"); msg != std::string::npos) type.erase(msg, 4);
-    topics[rows.number(0)] = {std::string(rows.bytes(1)), type, rows.bytes(3) == "cdr"};
-  }
-  return topics;
-}
-
 }  // namespace
 
 void read_sqlite_bag(const std::filesystem::path& file, const BagSink& sink) {
-  require_readable(file, file.string() + ": ", "give a recording");
   const Database database(file);
   Database::Rows check(database, "PRAGMA quick_check(1)");
   if (!check.next() || check.bytes(0) != "ok") database.refuse("damaged or cut: " + std::string(check.bytes(0)));
-  const std::map<std::int64_t, Topic> topics = topics_of(database);
-  Database::Rows messages(database, "SELECT id, topic_id, timestamp, data FROM messages ORDER BY timestamp, id");
+  Database::Rows messages(database,
+                          "SELECT m.id, t.id IS NULL, t.name, t.type, t.serialization_format, m.timestamp, m.data "
+                          "FROM messages m LEFT JOIN topics t ON t.id = m.topic_id ORDER BY m.timestamp, m.id");
   while (messages.next()) {
-    const auto topic = topics.find(messages.number(1));
-    if (topic == topics.end()) {
+    if (messages.number(1) != 0) {
       database.refuse("message " + std::to_string(messages.number(0)) +
                       " is of a topic that the bag does not describe");
     }
-    if (!topic->second.cdr) continue;
-    const Time logged{std::chrono::nanoseconds(messages.number(2))};
-    sink({topic->second.name, topic->second.type, Wire::kCdr, logged, messages.bytes(3)});
+    if (messages.bytes(4) != "cdr") continue;
+    const Time logged{std::chrono::nanoseconds(messages.number(5))};
+    sink({messages.bytes(2), ros1_name(messages.bytes(3)), Wire::kCdr, logged, messages.bytes(6)});
   }
 }
 

@@ -4,7 +4,6 @@
 #include <array>
 #include <bit>
 #include <cstdint>
-#include <cstring>
 #include <string>
 #include <string_view>
 
@@ -34,7 +33,7 @@ class WireReader {
     std::array<char, sizeof(T)> raw{};
     std::ranges::copy(take(sizeof(T)), raw.begin());
     if (swapped_) std::reverse(raw.begin(), raw.end());
-    return std::bit_cast<T>(raw);  // all our machines are little-endian
+    return std::bit_cast<T>(raw);
   }
   [[nodiscard]] double f64() { return number<double>(); }
   [[nodiscard]] float f32() { return number<float>(); }
@@ -71,17 +70,21 @@ class WireReader {
   bool aligned_, swapped_ = false, ok_ = true;
 };
 
-// OMG's Common Data Representation (CDR, XCDR1, little endian), as ROS 2 writes messages.
+/// The bytes of a number; all our machines are little-endian.
+template <class T>
+[[nodiscard]] std::string raw(T value) {
+  const auto bytes = std::bit_cast<std::array<char, sizeof(T)>>(value);
+  return {bytes.data(), bytes.size()};
+}
 
-/// Numbers stand at multiples of their size, counted from behind the encapsulation's four bytes.
+/// Writes OMG's CDR (XCDR1, little endian), as ROS 2's messages are. Numbers stand at multiples of their size, counted
+/// from behind the encapsulation's four bytes.
 class CdrWriter {
  public:
   template <class T>
   CdrWriter& number(T value) {
     bytes_.resize(kHead + (bytes_.size() - kHead + sizeof(T) - 1) / sizeof(T) * sizeof(T));
-    char raw[sizeof(T)];
-    std::memcpy(raw, &value, sizeof raw);  // all our machines are little-endian
-    bytes_.append(raw, sizeof raw);
+    bytes_ += raw(value);
     return *this;
   }
   CdrWriter& f64(double value) { return number(value); }

@@ -1,21 +1,29 @@
+#include <unistd.h>
+
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
+#include <csignal>
 #include <cstdio>
 #include <fstream>
 #include <functional>
+#include <iostream>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "apps/jaywalk/commands.h"
-#include "apps/setup/armed_session.h"
 #include "apps/setup/calibration.h"
 #include "apps/setup/watched_drive.h"
 #include "apps/why/recorded_run.h"
 #include "firmware/control_setup.h"
 #include "firmware/recording/recorder.h"
 #include "firmware/robot/commissioned.h"
+#include "firmware/robot/control_socket.h"
+#include "firmware/robot/realtime.h"
+#include "firmware/robot/robot_devices.h"
 #include "hal/shown_text.h"
 #include "hal/text_file.h"
 #include "hal/types/errors.h"
@@ -30,27 +38,22 @@ constexpr const char* kBelieved = "#b0b0b0";
 constexpr const char* kFoundColour = "#1f5fbf";
 
 /// A square panel, `most` of its unit from its middle to its edge.
-class Panel {
- public:
-  Panel(double left, double most) : left_(left), most_(most) {}
+struct Panel {
+  double left, most;
 
   [[nodiscard]] std::string frame(const std::string& title) const {
     return formatted(
         "<rect x='%.0f' y='%.0f' width='%.0f' height='%.0f' fill='none' stroke='#888'/>"
         "<path d='M%.0f %.0fh%.0fM%.0f %.0fv%.0f' stroke='#ddd'/>"
         "<text x='%.0f' y='%.0f'>%s, to %.3g at the rim</text>\n",
-        left_, kMargin, kSide, kSide, left_, kMargin + 0.5 * kSide, kSide, left_ + 0.5 * kSide, kMargin, kSide, left_,
-        kMargin - 12.0, title.c_str(), most_);
+        left, kMargin, kSide, kSide, left, kMargin + 0.5 * kSide, kSide, left + 0.5 * kSide, kMargin, kSide, left,
+        kMargin - 12.0, title.c_str(), most);
   }
   [[nodiscard]] std::string dot(double x, double y, const char* colour) const {
-    const auto inside = [this](double value) { return 0.5 * kSide * std::clamp(value / most_, -1.0, 1.0); };
-    return formatted("<circle cx='%.1f' cy='%.1f' r='3' fill='%s'/>\n", left_ + 0.5 * kSide + inside(x),
+    const auto inside = [this](double value) { return 0.5 * kSide * std::clamp(value / most, -1.0, 1.0); };
+    return formatted("<circle cx='%.1f' cy='%.1f' r='3' fill='%s'/>\n", left + 0.5 * kSide + inside(x),
                      kMargin + 0.5 * kSide - inside(y), colour);
   }
-  [[nodiscard]] double most() const { return most_; }
-
- private:
-  double left_, most_;
 };
 
 double greatest(const Calibration& calibration, const std::function<double(const MotionResidual&)>& of) {
@@ -62,11 +65,11 @@ double greatest(const Calibration& calibration, const std::function<double(const
 
 /// The residuals, as believed and as found: x and y (mm) and turns (mrad). An SVG without a script.
 std::string svg_of(const Calibration& calibration) {
-  const Panel ways(kMargin, 1e3 * greatest(calibration, [](const MotionResidual& r) {
+  const Panel ways{kMargin, 1e3 * greatest(calibration, [](const MotionResidual& r) {
                               return std::max(std::fabs(r.x_m), std::fabs(r.y_m));
-                            }));
-  const Panel turns(2.0 * kMargin + kSide,
-                    1e3 * greatest(calibration, [](const MotionResidual& r) { return std::fabs(r.turn_rad); }));
+                            })};
+  const Panel turns{2.0 * kMargin + kSide,
+                    1e3 * greatest(calibration, [](const MotionResidual& r) { return std::fabs(r.turn_rad); })};
   const std::string head = formatted(
       "<svg xmlns='http://www.w3.org/2000/svg' width='%.0f' height='%.0f' font-family='sans-serif' "
       "font-size='13'>\n<rect width='100%%' height='100%%' fill='white'/>\n",
@@ -77,7 +80,7 @@ std::string svg_of(const Calibration& calibration) {
     for (std::size_t k = 0; k < residuals->size(); ++k) {
       const MotionResidual& r = (*residuals)[k];
       const double along = 2.0 * static_cast<double>(k + 1) / static_cast<double>(residuals->size() + 1) - 1.0;
-      svg += ways.dot(1e3 * r.x_m, 1e3 * r.y_m, colour) + turns.dot(along * turns.most(), 1e3 * r.turn_rad, colour);
+      svg += ways.dot(1e3 * r.x_m, 1e3 * r.y_m, colour) + turns.dot(along * turns.most, 1e3 * r.turn_rad, colour);
     }
   }
   const std::string foot = formatted("<text x='%.0f' y='%.0f'>grey: as believed; blue: as found</text>\n</svg>\n",
@@ -85,7 +88,85 @@ std::string svg_of(const Calibration& calibration) {
   return svg + foot;
 }
 
-SessionOptions calibrate_options, commission_options;
+struct SessionOptions {
+  std::filesystem::path robot;           ///< ROBOT.toml
+  std::filesystem::path control_socket;  ///< empty: the file's
+  bool yes = false;                      ///< consent that the wheels may turn: the program does not ask for it
+  bool allow_no_realtime = false;        ///< goes on where the kernel refuses what the file asks for
+};
+
+std::atomic<bool> to_stop{false};
+
+void require_consent(bool yes, const std::string& name, const std::string& motion) {
+  if (yes) return;
+  if (::isatty(STDIN_FILENO) == 0)
+    throw StartupError(name + ": the wheels will turn, and nobody is there to be asked",
+                       "give --yes where the answer is yes: " + motion);
+  std::fprintf(stderr, "%s [yes/no] ", motion.c_str());
+  std::string answer;
+  std::getline(std::cin, answer);
+  if (answer != "yes") throw StartupError(name + ": not confirmed", "answer yes, or give --yes");
+}
+
+std::string obey_stop(std::string_view line) {
+  if (line != "stop" && line != "stop now") return "refused: the wheels are being turned; it knows stop\n";
+  to_stop = true;
+  return "stopping\n";
+}
+
+/// The robot of a file, armed while this lives. The command drives the wheels itself; the control loop does not run.
+/// Its motions end where `jaywalk stop`, SIGINT or SIGTERM say so. Once a process.
+class ArmedSession {
+ public:
+  /// `name`: the command's; `motion`: what a person is asked to allow, "The wheels will turn ... Is ... free?" Throws
+  /// StartupError where it may not begin.
+  ArmedSession(const SessionOptions& options, const std::string& name, const std::string& motion)
+      : file_(load_robot_file(options.robot)) {
+    if (options.allow_no_realtime) file_.realtime.required = false;
+    require_consent(options.yes, name, motion);
+    std::filesystem::path place = options.control_socket.empty() ? file_.control_socket : options.control_socket;
+    socket_ = std::make_unique<ControlSocket>(place.empty() ? default_control_socket() : place, obey_stop);
+    std::signal(SIGINT, [](int) { to_stop = true; });
+    std::signal(SIGTERM, [](int) { to_stop = true; });
+    devices_ = std::make_unique<RobotDevices>(file_, clock_);
+    devices_->start();
+    for (const auto& laser : devices_->lasers()) lasers_.push_back(laser.get());
+    require_realtime(file_.realtime, enter_fully());  // before the drives may turn a wheel
+    static_cast<void>(devices_->drive().arm());
+  }
+  /// Disarms the drives, which are at rest already.
+  ~ArmedSession() {
+    const Time limit = clock_.now() + std::chrono::milliseconds(500);
+    do {
+      static_cast<void>(devices_->drive().latest());
+      devices_->drive().disarm();
+      clock_.sleep_until(clock_.now() + std::chrono::milliseconds(10));
+    } while (devices_->drive().is_enabled() && clock_.now() < limit);
+  }
+
+  [[nodiscard]] const RobotFile& file() const { return file_; }
+  [[nodiscard]] ArmedRobot robot() {
+    const auto stopped = [] { return to_stop.load(); };
+    return {file_.setup.model, devices_->drive(), lasers_, clock_, stopped, file_.setup.tick()};
+  }
+
+ private:
+  /// What the kernel does not permit of what this thread and its process wish.
+  [[nodiscard]] std::vector<std::string> enter_fully() const {
+    std::vector<std::string> refused;
+    if (file_.realtime.lock_memory) refused = lock_memory();
+    for (std::string& line : enter_realtime(file_.realtime)) refused.push_back(std::move(line));
+    return refused;
+  }
+
+  RobotFile file_;
+  SteadyClock clock_;
+  std::unique_ptr<ControlSocket> socket_;
+  std::unique_ptr<RobotDevices> devices_;
+  std::vector<LaserScanner*> lasers_;  ///< devices_'s
+};
+
+SessionOptions calibrate_options;
 std::filesystem::path plot_folder = "out/calibrate";
 
 /// A calibration drive: a log of each scanner, and the wheel radii in the drives' settings. The loop counts with the
@@ -102,9 +183,7 @@ Drive drive_robot() {
       "The robot will drive 1.5 m ahead and back, and a circle to each side, for about a minute. Are 2 m "
       "free ahead, and a metre to each side and behind?");
   const RobotFile& file = session.file();
-  const GuidedDriveSetup setup{.model = file.setup.model, .tick = file.setup.tick()};
-  return {drive_guided(setup, session.drive(), session.lasers(), session.clock(), ArmedSession::stopped),
-          file.setup.model, file.drive.wheel_radii_m};
+  return {drive_guided(session.robot()), file.setup.model, file.drive.wheel_radii_m};
 }
 
 /// What devices.json of the run says; the model's where there is none, as of a simulation.
@@ -187,11 +266,6 @@ bool is_sharp(const Calibration& calibration) {
          mount.heading < 0.5 * kPi / 180.0;
 }
 
-void write_plot(const std::filesystem::path& file, const Calibration& calibration) {
-  std::filesystem::create_directories(file.parent_path());
-  write_text(file, svg_of(calibration), "see to the folder's rights and the disk's room");
-}
-
 int calibrate_robot() {
   const std::filesystem::path& what = calibrate_options.robot;
   const bool is_folder = std::filesystem::is_directory(what);
@@ -204,7 +278,8 @@ int calibrate_robot() {
     const std::string name = scanner_name(drive.model, k);
     each.push_back(calibrate(drive.logs[k], believed_of(drive.model, k),
                              name.empty() ? "scans" : "the " + name + " scanner's scans"));
-    write_plot(plot_of(drive.model, k), each.back());
+    std::filesystem::create_directories(plot_folder);
+    write_text(plot_of(drive.model, k), svg_of(each.back()), "see to the folder's rights and the disk's room");
     print_found(drive, k, each.back());
   }
   print_keys(drive, each);
@@ -220,8 +295,7 @@ std::vector<Nudge> nudge_robot(const SessionOptions& options, RobotFile& file) {
                        "The wheels will turn, each by 12 cm, forward and back. Is half a metre free all round?");
   file = session.file();
   withdraw_commissioned(options.robot, file);
-  const NudgeSetup setup{.model = file.setup.model, .tick = file.setup.tick()};
-  return nudge_wheels(setup, session.drive(), session.lasers(), session.clock(), ArmedSession::stopped);
+  return nudge_wheels(session.robot());
 }
 
 int commission_robot(const SessionOptions& options) {
@@ -245,11 +319,11 @@ void add_session_options(CLI::App& command, SessionOptions& options, const char*
 }  // namespace
 
 void add_commission(CLI::App& app, int& exit_code) {
+  static SessionOptions options;
   CLI::App* command = app.add_subcommand("commission", "Turn each wheel a little and check how all is wired");
-  command->add_option("robot", commission_options.robot, "Robot file (TOML; docs/tutorial/first-real-robot.md)")
-      ->required();
-  add_session_options(*command, commission_options, "The wheels may turn: do not ask");
-  command->callback([&exit_code] { exit_code = commission_robot(commission_options); });
+  command->add_option("robot", options.robot, "Robot file (TOML; docs/tutorial/first-real-robot.md)")->required();
+  add_session_options(*command, options, "The wheels may turn: do not ask");
+  command->callback([&exit_code] { exit_code = commission_robot(options); });
 }
 
 void add_calibrate(CLI::App& app, int& exit_code) {

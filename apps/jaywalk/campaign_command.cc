@@ -23,8 +23,6 @@ struct CampaignOptions {
   campaign::Shard shard;
 };
 
-CampaignOptions campaign_options;
-
 using campaign::Keep;
 using campaign::PlannedRun;
 using campaign::RunResult;
@@ -101,22 +99,23 @@ class Share {
     }
   }
 
-  /// Returns whether nothing is left; else stopped() is the exit code.
-  bool run() {
+  /// Returns 0 where nothing is left; else the exit code of what stopped it.
+  int run() {
     Teller teller(all_, all_ - left_.size());
     const Interruption interruption;
     for (std::size_t next = 0; next < left_.size() || pool_.size() > 0;) {
       for (; next < left_.size() && pool_.size() < jobs_; ++next)
         pool_.start(left_[next], runs_[left_[next]], folder_.begin(runs_[left_[next]]));
-      if (interruption.came()) stopped_ = interruption.exit_code();
-      if (interruption.came() || !take_ended(teller)) return stop();
+      if (interruption.came() || !take_ended(teller)) {
+        for (const std::size_t index : pool_.kill_all()) folder_.drop(runs_[index]);
+        return interruption.came() ? interruption.exit_code() : 1;
+      }
       teller.show();
       std::this_thread::sleep_for(kBetweenLooks);
     }
-    return true;
+    return 0;
   }
   [[nodiscard]] std::size_t not_run() const { return not_run_; }
-  [[nodiscard]] int stopped() const { return stopped_; }
 
  private:
   /// False where a run was stopped from outside: it is not finished, and the campaign is to stop as well.
@@ -131,10 +130,6 @@ class Share {
     }
     return true;
   }
-  bool stop() {
-    for (const std::size_t index : pool_.kill_all()) folder_.drop(runs_[index]);
-    return false;
-  }
 
   Keep keep_;
   const std::vector<PlannedRun>& runs_;
@@ -142,16 +137,15 @@ class Share {
   campaign::RunPool pool_;
   std::size_t jobs_, all_ = 0, not_run_ = 0;
   std::vector<std::size_t> left_;
-  int stopped_ = 1;
 };
 
 int run_campaign(const CampaignOptions& options) {
   const campaign::Campaign campaign = campaign::load_campaign(options.file);
   const campaign::Plan plan = campaign::plan_of(campaign);
   Share share(options, campaign, plan);
-  if (!share.run()) {
+  if (const int stopped = share.run(); stopped != 0) {
     std::fprintf(stderr, "jaywalk: stopped; the same command goes on with what is left\n");
-    return share.stopped();
+    return stopped;
   }
   if (share.not_run() > 0)
     std::fprintf(stderr, "jaywalk: %zu runs crashed or were refused; the report names them\n", share.not_run());
@@ -170,18 +164,18 @@ campaign::Shard shard_from(const std::string& word) {
 }  // namespace
 
 void add_campaign(CLI::App& app, int& exit_code) {
+  static CampaignOptions options;
   CLI::App* command = app.add_subcommand("campaign", "Many simulated runs, as one experiment that can be interrupted");
-  command->add_option("campaign", campaign_options.file, "Campaign file (TOML; docs/how-to/campaigns.md)")->required();
-  command->add_option("--jobs", campaign_options.jobs, "Runs at a time (default: all processors)")
-      ->check(CLI::Range(1, 4096));
+  command->add_option("campaign", options.file, "Campaign file (TOML; docs/how-to/campaigns.md)")->required();
+  command->add_option("--jobs", options.jobs, "Runs at a time (default: all processors)")->check(CLI::Range(1, 4096));
   command
       ->add_option_function<std::string>(
-          "--shard", [](const std::string& word) { campaign_options.shard = shard_from(word); },
+          "--shard", [](const std::string& word) { options.shard = shard_from(word); },
           "The I-th of N shares of the runs alone")
       ->type_name("I/N");
-  command->add_option("--out", campaign_options.out, "Folder for the runs; shares may have one in common")
+  command->add_option("--out", options.out, "Folder for the runs; shares may have one in common")
       ->capture_default_str();
-  command->callback([&exit_code] { exit_code = run_campaign(campaign_options); });
+  command->callback([&exit_code] { exit_code = run_campaign(options); });
 }
 
 }  // namespace jaywalk

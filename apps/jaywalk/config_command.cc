@@ -17,12 +17,6 @@
 namespace jaywalk {
 namespace {
 
-struct ConfigOptions {
-  bool explain = false, markdown = false;
-  std::string key;
-};
-ConfigOptions config_options;
-
 /// "drive.can", "timeout_s"; of a section "drive:vesc" as "drive.left_node".
 std::string path_of(const SettingKey& key) {
   const std::string table = key.section.substr(0, key.section.find(':'));
@@ -50,10 +44,10 @@ std::string as_text(const SettingKey& key) {
          "; default: " + default_of(key) + "\n";
 }
 
-std::string as_lines(const FileKeys& file) {
+std::string as_lines(const FileKeys& file, const std::string& wanted) {
   std::string lines;
   for (const SettingKey& key : file.keys)
-    if (names(config_options.key, key)) lines += as_text(key);
+    if (names(wanted, key)) lines += as_text(key);
   return lines;
 }
 
@@ -152,10 +146,10 @@ class MarkdownTable {
 };
 
 /// `shown_before`: the rows of earlier files.
-std::string as_table(const FileKeys& file, std::set<std::string>& shown_before) {
+std::string as_table(const FileKeys& file, const std::string& wanted, std::set<std::string>& shown_before) {
   MarkdownTable table;
   for (const SettingKey& key : file.keys)
-    if (names(config_options.key, key)) table.add(key, shown_before);
+    if (names(wanted, key)) table.add(key, shown_before);
   shown_before.merge(table.shown);
   return table.text();
 }
@@ -167,21 +161,21 @@ Generated: `jaywalk config --explain --markdown >docs/reference/configuration.md
 is needed where its table is. Brackets behind a key name the `kind` that has it. Paths are relative to the file.
 )";
 
-int explain() {
+int explain(const std::string& wanted, bool markdown) {
   const std::array<const FileKeys*, 4> files{&robot_file_keys(), &robot_model_keys(), &sim::scenario_keys(),
                                              &campaign::campaign_keys()};
-  std::string page = config_options.markdown ? kSettingsHead : "";
+  std::string page = markdown ? kSettingsHead : "";
   std::set<std::string> shown_before;
   bool found = false;
   for (const FileKeys* file : files) {
-    const std::string lines = config_options.markdown ? as_table(*file, shown_before) : as_lines(*file);
+    const std::string lines = markdown ? as_table(*file, wanted, shown_before) : as_lines(*file, wanted);
     if (lines.empty()) continue;
     found = true;
-    page += config_options.markdown ? "\n## " + std::string(file->title) + "\n\n" : std::string(file->title) + "\n";
+    page += markdown ? "\n## " + std::string(file->title) + "\n\n" : std::string(file->title) + "\n";
     page += lines;
   }
   if (!found)
-    throw StartupError("--explain " + shown(config_options.key) + ": no file has such a key",
+    throw StartupError("--explain " + shown(wanted) + ": no file has such a key",
                        "see all of them with jaywalk config --explain");
   std::fputs(page.c_str(), stdout);
   return 0;
@@ -190,12 +184,13 @@ int explain() {
 }  // namespace
 
 void add_config(CLI::App& app, int& exit_code) {
+  static bool explains = false, markdown = false;
+  static std::string key;
   CLI::App* config = app.add_subcommand("config", "Explain the keys of robot, model, scenario and campaign files");
-  config->add_flag("--explain", config_options.explain, "Print keys with meaning, range, unit and default")->required();
-  config->add_option("key", config_options.key,
-                     "One key, or the end of its path: rate_hz, laser.rate_hz (default: all)");
-  config->add_flag("--markdown", config_options.markdown, "As the tables of docs/reference/configuration.md");
-  config->callback([&exit_code] { exit_code = explain(); });
+  config->add_flag("--explain", explains, "Print keys with meaning, range, unit and default")->required();
+  config->add_option("key", key, "One key, or the end of its path: rate_hz, laser.rate_hz (default: all)");
+  config->add_flag("--markdown", markdown, "As the tables of docs/reference/configuration.md");
+  config->callback([&exit_code] { exit_code = explain(key, markdown); });
 }
 
 }  // namespace jaywalk

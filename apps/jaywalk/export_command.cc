@@ -10,13 +10,6 @@
 namespace jaywalk {
 namespace {
 
-struct ExportOptions {
-  std::filesystem::path run;  ///< a run's folder, or a recording.jwr
-  std::filesystem::path out;  ///< empty: run.mcap in the run's folder
-};
-
-ExportOptions export_options;
-
 void export_all(RecordedRun& run, RunExporter& exporter) {
   SeenRun again(run);
   Progress progress;
@@ -28,13 +21,11 @@ void export_all(RecordedRun& run, RunExporter& exporter) {
   std::fputs(again.remarks().c_str(), stderr);
 }
 
-std::filesystem::path place_of(const RecordedRun& run) {
-  return run.is_in_parts() ? run.file() : run.file().parent_path();
-}
-
-int run_export(const ExportOptions& options) {
-  RecordedRun run(options.run);
-  const std::filesystem::path out = options.out.empty() ? place_of(run) / "run.mcap" : options.out;
+/// `folder`: a run's, or a recording.jwr; `wanted`: the file to write; empty: run.mcap in the run's folder.
+int run_export(const std::filesystem::path& folder, const std::filesystem::path& wanted) {
+  RecordedRun run(folder);
+  const std::filesystem::path place = run.is_in_parts() ? run.file() : run.file().parent_path();
+  const std::filesystem::path out = wanted.empty() ? place / "run.mcap" : wanted;
   std::error_code missing;
   if (std::filesystem::equivalent(run.file(), out, missing))
     throw StartupError(run.file().string() + ": would be overwritten", "choose another --out");
@@ -50,10 +41,11 @@ int run_export(const ExportOptions& options) {
 }  // namespace
 
 void add_export(CLI::App& app, int& exit_code) {
+  static std::filesystem::path run, out;
   CLI::App* command = app.add_subcommand("export", "A run's recording as MCAP, for Foxglove and ros2 bag");
-  command->add_option("run", export_options.run, "A run's folder, or its recording.jwr")->required();
-  command->add_option("--out", export_options.out, "File to write (default: run.mcap in the run's folder)");
-  command->callback([&exit_code] { exit_code = run_export(export_options); });
+  command->add_option("run", run, "A run's folder, or its recording.jwr")->required();
+  command->add_option("--out", out, "File to write (default: run.mcap in the run's folder)");
+  command->callback([&exit_code] { exit_code = run_export(run, out); });
 }
 
 }  // namespace jaywalk

@@ -14,13 +14,6 @@
 namespace jaywalk {
 namespace {
 
-struct FaultsOptions {
-  std::filesystem::path out = "out/faults";
-  double rate_hz = 50.0;  ///< of the control loop
-};
-
-FaultsOptions faults_options;
-
 using faults::FaultResult;
 
 double in_ms(Duration d) { return 1e3 * to_seconds(d); }
@@ -113,21 +106,22 @@ std::string markdown(const std::vector<FaultResult>& rows) {
   return text;
 }
 
-int run_faults(const FaultsOptions& options) {
-  const std::filesystem::path scratch = options.out / "last_run";
+/// `rate_hz`: of the control loop.
+int run_faults(const std::filesystem::path& out, double rate_hz) {
+  const std::filesystem::path scratch = out / "last_run";
   std::error_code failed;
   std::filesystem::create_directories(scratch, failed);
   std::string csv = "fault,drive,speed_mps,reaction_ms,limit_ms,stop_distance_m,latched,ok\n";
   std::vector<FaultResult> rows;
-  const std::filesystem::path table = options.out / "faults.csv";
+  const std::filesystem::path table = out / "faults.csv";
   write_text(table, csv, faults::kOtherOut);
-  const int bad = faults::run_matrix(options.rate_hz, scratch, [&](const FaultResult& row) {
+  const int bad = faults::run_matrix(rate_hz, scratch, [&](const FaultResult& row) {
     csv += csv_row(row);
     print(row);
     rows.push_back(row);
   });
   write_text(table, csv, faults::kOtherOut);
-  write_text(options.out / "faults.md", markdown(rows), faults::kOtherOut);
+  write_text(out / "faults.md", markdown(rows), faults::kOtherOut);
   const int count = static_cast<int>(rows.size());
   std::printf("%d of %d rows ok; %s\n", count - bad, count, table.string().c_str());
   return bad == 0 ? 0 : 1;
@@ -136,13 +130,15 @@ int run_faults(const FaultsOptions& options) {
 }  // namespace
 
 void add_faults(CLI::App& app, int& exit_code) {
+  static std::filesystem::path out = "out/faults";
+  static double rate_hz = 50.0;
   CLI::App* faults =
       app.add_subcommand("faults", "The fault matrix: every fault, drive and speed on the simulated robot");
-  faults->add_option("--out", faults_options.out, "Folder for faults.csv")->capture_default_str();
-  faults->add_option("--rate-hz", faults_options.rate_hz, "Rate of the control loop")
+  faults->add_option("--out", out, "Folder for faults.csv")->capture_default_str();
+  faults->add_option("--rate-hz", rate_hz, "Rate of the control loop")
       ->check(CLI::Range(25.0, 200.0))
       ->capture_default_str();
-  faults->callback([&exit_code] { exit_code = run_faults(faults_options); });
+  faults->callback([&exit_code] { exit_code = run_faults(out, rate_hz); });
 }
 
 }  // namespace jaywalk

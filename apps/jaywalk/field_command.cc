@@ -27,8 +27,6 @@ struct FieldOptions {
   std::filesystem::path out = "out/field";
 };
 
-FieldOptions field_options;
-
 using paper::MapField;
 using paper::MapQuality;
 
@@ -119,8 +117,7 @@ int run_field(const FieldOptions& options) {
                               {"backend", solver.backend()},
                               {"warm_certified", warm.certified},
                               {"joined_cells", cold.joined},
-                              {"best_neighbours", nullptr}};
-  if (best) json["best_neighbours"] = *best;
+                              {"best_neighbours", best ? nlohmann::ordered_json(*best) : nullptr}};
   write_text(options.out / "field.json", json.dump(2) + "\n", "choose another --out");
   std::printf("%s: %d x %d cells, %s, reach %.4f, %s, cold %.2f ms, warm %.2f ms on %s; see %s\n", options.map.c_str(),
               map.cells.width, map.cells.height, cold.certified ? "certified" : "not certified",
@@ -132,22 +129,16 @@ int run_field(const FieldOptions& options) {
 }  // namespace
 
 void add_field(CLI::App& app, int& exit_code) {
+  static FieldOptions options;
   CLI::App* field = app.add_subcommand("field", "The potential field of a map alone");
-  field->add_option("map", field_options.map, "map_server YAML, ARIA .map, cylinders .txt, or a picture")->required();
-  add_place(
-      *field, "--goal", 2,
-      [](const auto& v) {
-        field_options.goal = Vec2{v[0], v[1]};
-      },
-      "Goal X,Y in the map (default: the free cell nearest its middle)");
-  field->add_option("--inflation,--inflation_m", field_options.inflation_m, "Walls grow by this (m)")
-      ->capture_default_str();
-  field->add_option("--resolution", field_options.cell_m, "Metres a cell: of a picture, of lines or cylinders");
-  add_backend(*field, field_options.backend, field_options.device);
-  field->add_flag("--start-field", field_options.start_only,
-                  "The start field alone: shortest ways, no potential solved");
-  field->add_option("--out", field_options.out, "Folder for field.npy and field.json")->capture_default_str();
-  field->callback([&exit_code] { exit_code = run_field(field_options); });
+  field->add_option("map", options.map, "map_server YAML, ARIA .map, cylinders .txt, or a picture")->required();
+  add_place(*field, "--goal", options.goal, "Goal X,Y in the map (default: the free cell nearest its middle)");
+  field->add_option("--inflation,--inflation_m", options.inflation_m, "Walls grow by this (m)")->capture_default_str();
+  field->add_option("--resolution", options.cell_m, "Metres a cell: of a picture, of lines or cylinders");
+  add_backend(*field, options.backend, options.device);
+  field->add_flag("--start-field", options.start_only, "The start field alone: shortest ways, no potential solved");
+  field->add_option("--out", options.out, "Folder for field.npy and field.json")->capture_default_str();
+  field->callback([&exit_code] { exit_code = run_field(options); });
 }
 
 }  // namespace jaywalk

@@ -27,6 +27,10 @@ std::string roff(const std::string& text) {
   return out;
 }
 
+std::vector<const CLI::App*> commands_of(const CLI::App& app) {
+  return app.get_subcommands([](const CLI::App*) { return true; });
+}
+
 /// "--mode full|paper", "--help, -h", "scenario".
 std::string option_name(const CLI::Option& option) {
   std::string names;
@@ -77,11 +81,6 @@ std::map<std::string, std::string> commands_by_item(const CLI::App& app) {
 
 bool is_shared(const std::string& commands) { return commands.find(',') != std::string::npos; }
 
-[[noreturn]] void print(const std::string& text) {
-  std::fputs(text.c_str(), stdout);
-  throw CLI::Success();
-}
-
 std::string long_names(const CLI::App& app) {
   std::string words;
   for (const CLI::Option* option : app.get_options())
@@ -92,13 +91,11 @@ std::string long_names(const CLI::App& app) {
 /// The words that an option takes, as "full paper"; empty where it takes any value.
 std::string value_words(const CLI::Option& option) {
   std::string words = option.get_type_name();
-  if (words.find(":{") != std::string::npos) {  // the parser's own way to say it: "TEXT:{a,b}"
-    words = words.substr(words.find('{') + 1, words.rfind('}') - words.find('{') - 1);
-    std::replace(words.begin(), words.end(), ',', ' ');
-    return words;
-  }
-  if (words.find('|') == std::string::npos) return "";
-  std::replace(words.begin(), words.end(), '|', ' ');
+  const bool are_parsers = words.find(":{") != std::string::npos;  // "TEXT:{a,b}"
+  if (are_parsers) words = words.substr(words.find('{') + 1, words.rfind('}') - words.find('{') - 1);
+  const char between = are_parsers ? ',' : '|';
+  if (!are_parsers && words.find(between) == std::string::npos) return "";
+  std::ranges::replace(words, between, ' ');
   return words;
 }
 
@@ -200,8 +197,7 @@ std::string fish_completion(const CLI::App& app) {
   return text;
 }
 
-}  // namespace
-
+/// The manual page of the program and all its commands, for man(1).
 std::string man_page(const CLI::App& app) {
   std::string text =
       ".TH JAYWALK 1 \"\" \"jaywalk " + std::string(JAYWALK_VERSION) +
@@ -214,6 +210,7 @@ std::string man_page(const CLI::App& app) {
   return text;
 }
 
+/// The reference page of the command line. An option that several commands have stands in it once.
 std::string markdown_page(const CLI::App& app) {
   const std::map<std::string, std::string> commands = commands_by_item(app);
   std::string page = R"(# Command line
@@ -240,6 +237,22 @@ bad input or set-up. `jaywalk COMMAND --help` has an example too; `jaywalk --man
   return page;
 }
 
+/// What a shell offers to complete: commands, options, and the words of options that take one of a few. Throws
+/// StartupError for another shell.
+std::string completion_for(const CLI::App& app, const std::string& shell) {
+  if (shell == "bash") return bash_completion(app);
+  if (shell == "zsh") return zsh_completion(app);
+  if (shell == "fish") return fish_completion(app);
+  throw StartupError("--completion: " + shown(shell) + " is not written for", "give bash, zsh or fish");
+}
+
+[[noreturn]] void print(const std::string& text) {
+  std::fputs(text.c_str(), stdout);
+  throw CLI::Success();
+}
+
+}  // namespace
+
 void add_manual_options(CLI::App& app) {
   app.add_flag_callback(
       "--man", [&app] { print(man_page(app)); }, "Print the manual page: jaywalk --man | man -l -");
@@ -249,13 +262,6 @@ void add_manual_options(CLI::App& app) {
          "--completion", [&app](const std::string& shell) { print(completion_for(app, shell)); },
          "Print what a shell needs to complete commands and options")
       ->type_name("bash|zsh|fish");
-}
-
-std::string completion_for(const CLI::App& app, const std::string& shell) {
-  if (shell == "bash") return bash_completion(app);
-  if (shell == "zsh") return zsh_completion(app);
-  if (shell == "fish") return fish_completion(app);
-  throw StartupError("--completion: " + shown(shell) + " is not written for", "give bash, zsh or fish");
 }
 
 }  // namespace jaywalk

@@ -42,8 +42,6 @@ struct ReplayOptions {
   std::optional<view::ViewAddress> view;  ///< serve the live page here, until an interruption
 };
 
-ReplayOptions replay_options;
-
 constexpr double kGoalTolerance_m = 0.3;
 
 /// A line of numbers begins a scan-odom file; CARMEN's lines begin with a message's name.
@@ -215,13 +213,6 @@ void warn_of_options_of_logs(const ReplayOptions& options) {
                options.logs[0].c_str());
 }
 
-/// The tables of the run that is replayed know more than a replay can.
-void refuse_own_folder(const RecordedRun& run, const std::filesystem::path& out) {
-  if (!run.lies_in(out)) return;
-  throw StartupError("--out " + out.string() + ": the recording's own folder, whose run would be overwritten",
-                     "choose another --out");
-}
-
 bool same_bits(double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }
 
 /// Replays our own recording and compares every command. `part`: where in the file it stands.
@@ -231,7 +222,9 @@ int replay_recording(const ReplayOptions& options, FilePart part) {
     throw StartupError(options.logs[1].string() + ": one file too many", "a recording holds everything in one file");
   warn_of_options_of_logs(options);
   RecordedRun run(options.logs[0], part);
-  refuse_own_folder(run, options.out);
+  if (run.lies_in(options.out))  // the tables of the run that is replayed know more than a replay can
+    throw StartupError("--out " + options.out.string() + ": the recording's own folder, whose run would be overwritten",
+                       "choose another --out");
   ControlSetup setup = run.setup();
   if (setup.backend == Backend::kCuda) setup.backend = Backend::kAuto;  // the bits are the same wherever it is replayed
   const TickRecord& recorded = run.last();
@@ -287,9 +280,9 @@ int run_replay(ReplayOptions options) {
   const std::string format = format_of(options);
   if (format == "jaywalk") return replay_recording(options, {});
   const bool picks_topics = !options.scan_topic.empty() || !options.odom_topic.empty();
-  if (format == "bag" && !picks_topics && exchange::is_mcap(options.logs[0])) {
-    const exchange::Attachment own = exchange::find_attachment(options.logs[0], "recording.jwr");
-    if (own.bytes > 0) return replay_recording(options, {own.at, own.bytes});
+  if (format == "bag" && !picks_topics) {
+    const FilePart own = exchange::find_attachment(options.logs[0], "recording.jwr");
+    if (own.bytes > 0) return replay_recording(options, own);
   }
   return replay_log(options, format);
 }
@@ -297,38 +290,28 @@ int run_replay(ReplayOptions options) {
 }  // namespace
 
 void add_replay(CLI::App& app, int& exit_code) {
+  static ReplayOptions options;
   CLI::App* replay = app.add_subcommand("replay", "Run recorded laser and odometry through the pipeline");
   replay
-      ->add_option("log", replay_options.logs,
+      ->add_option("log", options.logs,
                    "SCAN.txt [ODOM.txt], a CARMEN log, a bag (.mcap, a ROS 2 bag's folder or .db3, a ROS 1 .bag), or "
                    "recording.jwr; .gz is read as it is")
       ->required();
-  replay
-      ->add_option("--format", replay_options.format, "scan-odom, carmen, bag or jaywalk (default: told from the file)")
+  replay->add_option("--format", options.format, "scan-odom, carmen, bag or jaywalk (default: told from the file)")
       ->check(CLI::IsMember({"scan-odom", "carmen", "bag", "jaywalk"}));
-  replay->add_option("--scan-topic", replay_options.scan_topic, "A bag's scans (default: the only LaserScan topic)");
-  replay->add_option("--odom-topic", replay_options.odom_topic, "A bag's odometry (default: the only Odometry topic)");
-  add_place(
-      *replay, "--goal", 2,
-      [](const auto& v) {
-        replay_options.goal = Vec2{v[0], v[1]};
-      },
-      "Goal X,Y in the recording's frame (default: its last pose)");
-  add_place(
-      *replay, "--laser-mount", 3,
-      [](const auto& v) {
-        replay_options.laser_mount = Pose2{v[0], v[1], wrap_angle(v[2])};
-      },
-      "X,Y,YAW of the laser on the robot (m, m, rad)");
+  replay->add_option("--scan-topic", options.scan_topic, "A bag's scans (default: the only LaserScan topic)");
+  replay->add_option("--odom-topic", options.odom_topic, "A bag's odometry (default: the only Odometry topic)");
+  add_place(*replay, "--goal", options.goal, "Goal X,Y in the recording's frame (default: its last pose)");
+  add_place(*replay, "--laser-mount", options.laser_mount, "X,Y,YAW of the laser on the robot (m, m, rad)");
   replay->add_option(
-      "--model", replay_options.model,
+      "--model", options.model,
       "Whose body it is: p3dx, wheelchair, or a robot model file (default: p3dx); its laser's mount too");
-  replay->add_flag("--save-map", replay_options.save_map, "Save what the robot saw: map.yaml and map.pgm (map_server)");
-  replay->add_option("--out", replay_options.out, "Folder for what the run leaves")->capture_default_str();
-  replay->add_flag("--mcap", replay_options.mcap, "Leave run.mcap as well, as export would");
-  replay->add_flag("--json", replay_options.json, "Print the summary, in place of a line");
-  add_view(*replay, replay_options.view);
-  replay->callback([&exit_code] { exit_code = run_replay(replay_options); });
+  replay->add_flag("--save-map", options.save_map, "Save what the robot saw: map.yaml and map.pgm (map_server)");
+  replay->add_option("--out", options.out, "Folder for what the run leaves")->capture_default_str();
+  replay->add_flag("--mcap", options.mcap, "Leave run.mcap as well, as export would");
+  replay->add_flag("--json", options.json, "Print the summary, in place of a line");
+  add_view(*replay, options.view);
+  replay->callback([&exit_code] { exit_code = run_replay(options); });
 }
 
 }  // namespace jaywalk

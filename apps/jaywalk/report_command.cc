@@ -10,13 +10,6 @@
 namespace jaywalk {
 namespace {
 
-struct ReportOptions {
-  std::vector<std::filesystem::path> folders;
-  std::filesystem::path out;  ///< of a campaign's report; empty: "report" in the first folder
-};
-
-ReportOptions report_options;
-
 constexpr const char* kBegun = "begun";
 
 /// Empty: pictures of an earlier report may not stand beside this one's.
@@ -33,37 +26,38 @@ void save(const campaign::ReportPage& page, const std::filesystem::path& out) {
   for (const campaign::ReportSection& section : page.sections)
     for (const campaign::ReportChart& chart : section.charts)
       campaign::write_whole(out / "charts" / (chart.name + ".svg"), chart.svg, kBegun);
-  std::size_t number = 0;
-  for (const campaign::ReportFailure& failure : page.failures) {
-    ++number;
-    const std::filesystem::path picture = out / "failures" / (std::to_string(number) + ".svg");
-    if (!failure.svg.empty()) campaign::write_whole(picture, failure.svg, kBegun);
+  for (std::size_t k = 0; k < page.failures.size(); ++k) {
+    const std::string& svg = page.failures[k].svg;
+    if (!svg.empty()) campaign::write_whole(out / "failures" / (std::to_string(k + 1) + ".svg"), svg, kBegun);
   }
   campaign::write_whole(out / "report.md", campaign::markdown_of(page), kBegun);
   campaign::write_whole(out / "report.html", campaign::html_of(page), kBegun);
 }
 
-int run_report(const ReportOptions& options) {
-  if (options.folders.size() == 1 && !campaign::is_campaign(options.folders.front())) {
-    std::fputs(run_words(options.folders.front()).c_str(), stdout);
+/// `wanted`: folder of a campaign's report; empty: "report" in the first folder.
+int run_report(const std::vector<std::filesystem::path>& folders, const std::filesystem::path& wanted) {
+  if (folders.size() == 1 && !campaign::is_campaign(folders.front())) {
+    std::fputs(run_words(folders.front()).c_str(), stdout);
     return 0;
   }
-  const campaign::CampaignReport report(options.folders);
-  const std::filesystem::path out = options.out.empty() ? options.folders.front() / "report" : options.out;
-  save(report.page(), out);
-  if (report.missing() > 0)
-    std::fprintf(stderr, "jaywalk: %zu runs are missing; the campaign's command goes on with them\n", report.missing());
+  const campaign::ReportPage page = campaign::page_of(folders);
+  const std::filesystem::path out = wanted.empty() ? folders.front() / "report" : wanted;
+  save(page, out);
+  if (page.missing > 0)
+    std::fprintf(stderr, "jaywalk: %zu runs are missing; the campaign's command goes on with them\n", page.missing);
   std::printf("See %s and %s\n", (out / "report.html").c_str(), (out / "report.md").c_str());
-  return report.missing() > 0 ? 1 : 0;
+  return page.missing > 0 ? 1 : 0;
 }
 
 }  // namespace
 
 void add_report(CLI::App& app, int& exit_code) {
+  static std::vector<std::filesystem::path> folders;
+  static std::filesystem::path out;
   CLI::App* command = app.add_subcommand("report", "A run in plain words, or a campaign's tables, charts and failures");
-  command->add_option("folders", report_options.folders, "A run's folder, or those of a campaign's shards")->required();
-  command->add_option("--out", report_options.out, "Folder of a campaign's report (default: report in the first)");
-  command->callback([&exit_code] { exit_code = run_report(report_options); });
+  command->add_option("folders", folders, "A run's folder, or those of a campaign's shards")->required();
+  command->add_option("--out", out, "Folder of a campaign's report (default: report in the first)");
+  command->callback([&exit_code] { exit_code = run_report(folders, out); });
 }
 
 }  // namespace jaywalk

@@ -15,6 +15,7 @@
 #include "firmware/recording/map_files.h"
 #include "firmware/safety/stop_zone.h"
 #include "hal/robot_model_file.h"
+#include "hal/setting_keys.h"
 #include "hal/shown_text.h"
 #include "hal/sim/simulation.h"
 #include "hal/types/errors.h"
@@ -43,8 +44,6 @@ struct SimOptions {
   bool until_arrived = false;                  ///< with it too: ends at the first arrival
   bool endless = false;                        ///< goes on until it is interrupted, and its page may change the world
 };
-
-SimOptions sim_options;
 
 /// PREFIX/bin/jaywalk has PREFIX/share/jaywalk/scenarios; a build lies in its sources, or a folder or two below.
 std::filesystem::path shipped_folder() {
@@ -76,10 +75,8 @@ std::filesystem::path scenario_named(const std::filesystem::path& given) {
   if (std::filesystem::exists(folder / (name + ".toml"))) return folder / (name + ".toml");
   const std::vector<std::string> names = names_in(folder);
   if (given.extension() == ".toml" || names.empty()) return given;
-  std::string all;
-  for (const std::string& one : names) all += (all.empty() ? "" : ", ") + one;
   throw StartupError(name + ": no such file, and no scenario of that name",
-                     did_you_mean(name, names, "give a file, or one of " + all));
+                     did_you_mean(name, names, "give a file, or one of " + joined(names)));
 }
 
 /// The simulator's truth in the report's words.
@@ -87,13 +84,8 @@ class TruthForReport {
  public:
   const TrueState& of(const sim::Truth& truth) {
     movers_.clear();
-    for (const sim::MoverTruth& m : truth.movers) {
-      movers_.push_back({.id = m.id,
-                         .position_in_map = m.position,
-                         .velocity_in_map = m.velocity,
-                         .radius_m = m.radius_m,
-                         .forced = m.forced});
-    }
+    for (const sim::MoverTruth& m : truth.movers)
+      movers_.push_back({m.id, m.position, m.velocity, m.radius_m, m.forced});
     state_ = {.map_from_robot = truth.map_from_robot,
               .twist = truth.twist,
               .movers = movers_,
@@ -296,43 +288,42 @@ std::uint64_t seed_of(const std::string& word) {
 }  // namespace
 
 void add_sim(CLI::App& app, int& exit_code) {
+  static SimOptions options;
   CLI::App* sim = app.add_subcommand("sim", "Run the whole controller on a simulated robot");
-  sim->add_option("scenario", sim_options.scenario, "Scenario file (docs/reference/scenarios.md) or shipped name")
+  sim->add_option("scenario", options.scenario, "Scenario file (docs/reference/scenarios.md) or shipped name")
       ->required();
   sim->add_option_function<std::string>(
-         "--seed", [](const std::string& word) { sim_options.seed = seed_of(word); },
+         "--seed", [](const std::string& word) { options.seed = seed_of(word); },
          "Seed of everything random, 0 or more (default: the scenario's)")
       ->type_name("N");
-  sim->add_option("--set", sim_options.settings, "A setting in place of the scenario's own: movers.count=16")
+  sim->add_option("--set", options.settings, "A setting in place of the scenario's own: movers.count=16")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
-  add_choice<PlanMode>(*sim, "--mode", sim_options.mode, {{"full", PlanMode::kFull}, {"paper", PlanMode::kPaper}},
+  add_choice<PlanMode>(*sim, "--mode", options.mode, {{"full", PlanMode::kFull}, {"paper", PlanMode::kPaper}},
                        "full: laser only, stops for people; paper: movers given, never stops");
-  sim->add_flag("--constant-speed", sim_options.constant_speed,
-                "One speed from start to goal, never stopping for a plan");
-  add_choice<std::string>(*sim, "--planner", sim_options.rival,
+  sim->add_flag("--constant-speed", options.constant_speed, "One speed from start to goal, never stopping for a plan");
+  add_choice<std::string>(*sim, "--planner", options.rival,
                           {{"ours", ""}, {"none", "none"}, {"replan", "replan"}, {"dwa", "dwa"}, {"orca", "orca"}},
                           "Who decides on motion: ours, or a planner of others to hold it against");
   sim->add_option_function<std::string>(
-         "--comfort", [](const std::string& word) { sim_options.settings.push_back("robot.comfort=" + word); },
+         "--comfort", [](const std::string& word) { options.settings.push_back("robot.comfort=" + word); },
          "How the ride is to feel, in place of the scenario's own")
       ->check(CLI::IsMember(comfort_names()));
-  add_backend(*sim, sim_options.backend, sim_options.device);
-  sim->add_option("--out", sim_options.out, "Folder for what the run leaves")->capture_default_str();
-  add_parts(*sim, sim_options.parts);
-  sim->add_flag("--save-map", sim_options.save_map, "Save what the robot saw: map.yaml and map.pgm (map_server)");
-  sim->add_flag("--realtime", sim_options.realtime, "Hold simulated time to the wall clock");
-  sim->add_flag("--mcap", sim_options.mcap, "Leave run.mcap as well, as export would");
-  sim->add_flag("--json", sim_options.json, "Print the summary, in place of a line");
-  add_view(*sim, sim_options.view);
+  add_backend(*sim, options.backend, options.device);
+  sim->add_option("--out", options.out, "Folder for what the run leaves")->capture_default_str();
+  add_parts(*sim, options.parts);
+  sim->add_flag("--save-map", options.save_map, "Save what the robot saw: map.yaml and map.pgm (map_server)");
+  sim->add_flag("--realtime", options.realtime, "Hold simulated time to the wall clock");
+  sim->add_flag("--mcap", options.mcap, "Leave run.mcap as well, as export would");
+  sim->add_flag("--json", options.json, "Print the summary, in place of a line");
+  add_view(*sim, options.view);
   CLI::Option* const until =
-      sim->add_flag("--until-arrived", sim_options.until_arrived, "End at the first arrival, watched or not");
+      sim->add_flag("--until-arrived", options.until_arrived, "End at the first arrival, watched or not");
   sim->add_flag_callback(
-         "--endless",
-         [] { sim_options.endless = true, sim_options.view = sim_options.view.value_or(view::ViewAddress{}); },
+         "--endless", [] { options.endless = true, options.view = options.view.value_or(view::ViewAddress{}); },
          "Play with the world on the live page: goals, faults, walkers, the speed of time; Ctrl-C ends it")
       ->excludes(until);
-  sim->callback([&exit_code] { exit_code = run_sim(sim_options); });
+  sim->callback([&exit_code] { exit_code = run_sim(options); });
 }
 
 }  // namespace jaywalk

@@ -44,35 +44,17 @@ bool CsvFile::write_out() {
   return !file_.has_failed();
 }
 
-void CsvFile::begin_cell() {
-  if (row_begun_) rows_ += ',';
-  row_begun_ = true;
-}
-
-CsvFile& CsvFile::number(double value) {
-  begin_cell();
-  rows_ += csv_cell(value);
-  return *this;
-}
-
-CsvFile& CsvFile::count(std::uint64_t value) {
-  begin_cell();
-  rows_ += std::to_string(value);
-  return *this;
-}
-
 CsvFile& CsvFile::seconds(Time t) {
-  begin_cell();
   const std::int64_t ns = t.time_since_epoch().count();
   const std::int64_t us = ns / 1000 + (ns % 1000 >= 500 ? 1 : 0) - (ns % 1000 < -500 ? 1 : 0);
   const std::string fraction = std::to_string(std::abs(us % 1'000'000));
-  if (us < 0 && us > -1'000'000) rows_ += '-';
-  rows_ += std::to_string(us / 1'000'000) + "." + std::string(6 - fraction.size(), '0') + fraction;
-  return *this;
+  return text((us < 0 ? "-" : "") + std::to_string(std::abs(us / 1'000'000)) + "." +
+              std::string(6 - fraction.size(), '0') + fraction);
 }
 
 CsvFile& CsvFile::text(std::string_view value) {
-  begin_cell();
+  if (row_begun_) rows_ += ',';
+  row_begun_ = true;
   rows_ += value;
   return *this;
 }

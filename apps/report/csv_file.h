@@ -8,20 +8,27 @@
 #include <vector>
 
 #include "firmware/recording/recorder.h"
+#include "hal/types/geometry.h"
 #include "hal/types/time.h"
 
 namespace jaywalk {
-/// A comma-separated table: a header line, then rows cell by cell. Numbers have six decimals and a
-/// point whatever the locale, zero has no sign, NaN is an empty cell, infinity is "inf". On a disk that is full it ends
-/// with the last row that was taken whole.
+
+/// `value` as a cell of a table shows it: six decimals and a point whatever the locale, zero without a sign, NaN empty,
+/// infinity "inf".
+[[nodiscard]] std::string csv_cell(double value);
+
+/// A comma-separated table: a header line, then rows cell by cell. On a disk that is full it ends with the last row
+/// that was taken whole.
 class CsvFile {
  public:
   /// Throws StartupError when the file cannot be made.
   CsvFile(const std::string& file, std::string_view header);
   ~CsvFile() { close(); }
 
-  CsvFile& number(double value);
-  CsvFile& count(std::uint64_t value);
+  CsvFile& number(double value) { return text(csv_cell(value)); }
+  CsvFile& count(std::uint64_t value) { return text(std::to_string(value)); }
+  CsvFile& vector(Vec2 v) { return number(v.x).number(v.y); }
+  CsvFile& pose(const Pose2& pose) { return vector(pose.position()).number(pose.heading); }
   CsvFile& seconds(Time t);  ///< exact to the nanosecond before it is rounded to six decimals
   CsvFile& text(std::string_view value);
   void end_row();
@@ -29,22 +36,16 @@ class CsvFile {
   bool write_out();
   /// Writes out what is left. False likewise.
   bool close();
-  /// AppendFile's, both.
-  [[nodiscard]] bool has_failed() const noexcept { return file_.has_failed(); }
+  /// AppendFile's.
   [[nodiscard]] std::string complaint() const { return file_.complaint(); }
   /// Of the file, with what is not on the disk yet.
   [[nodiscard]] std::uintmax_t bytes() const noexcept { return file_.bytes() + rows_.size(); }
 
  private:
-  void begin_cell();
-
   AppendFile file_;
   std::string rows_;
   bool row_begun_ = false;
 };
-
-/// `value` as a cell of a table shows it.
-[[nodiscard]] std::string csv_cell(double value);
 
 /// The parts of `text` between the letters `at`; one more than there are such letters.
 [[nodiscard]] std::vector<std::string> parts_between(const std::string& text, char at);

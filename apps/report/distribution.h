@@ -22,7 +22,6 @@ class Distribution {
     many_ = std::make_unique<LogHistogram>();
     for (const double kept : std::exchange(values_, {})) many_->add(kept);
   }
-  [[nodiscard]] bool empty() const { return values_.empty() && !many_; }
   /// The smallest value that at least `share` of all do not exceed (nearest rank); share in (0, 1].
   /// NaN when there are none.
   [[nodiscard]] double quantile(double share) const {

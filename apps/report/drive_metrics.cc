@@ -2,33 +2,21 @@
 
 #include <cmath>
 
-#include "hal/shown_text.h"
-
 namespace jaywalk {
 namespace {
 
 constexpr double kLoop_rad = 340.0 / 180.0 * kPi, kWithin_m = 10.0, kPiece_m = 0.05;
 
-constexpr double kFor_m = 3.0;  ///< a body farther off is no reason
-constexpr double kWalks_mps = 0.2;
-constexpr std::size_t kMostLines = 10;
-
-std::string place_of(double t_s, Vec2 where) { return formatted("  at %.1f s, %.1f, %.1f m", t_s, where.x, where.y); }
-
 }  // namespace
 
 void PathShape::add(Vec2 position) {
-  if (!begun_) {
-    begun_ = true;
-    newest_ = last_mark_ = position;
-    return;
-  }
-  double step_m = distance(newest_, position);
+  if (!newest_) newest_ = last_mark_ = position;
+  double step_m = distance(*newest_, position);
   length_m_ += step_m;
   while (step_m > 0.0 && since_mark_m_ + step_m >= kTurnStepM) {
     const double to_mark_m = kTurnStepM - since_mark_m_;
-    newest_ = newest_ + (position - newest_) * (to_mark_m / step_m);
-    mark(newest_);
+    newest_ = *newest_ + (position - *newest_) * (to_mark_m / step_m);
+    mark(*newest_);
     step_m -= to_mark_m;
     since_mark_m_ = 0.0;
   }
@@ -38,27 +26,25 @@ void PathShape::add(Vec2 position) {
 
 void PathShape::mark(Vec2 position) {
   const Vec2 step = position - last_mark_;
-  if (stepped_) {
-    const double turn_deg = std::fabs(atan2(cross(last_step_, step), dot(last_step_, step))) * 180.0 / kPi;
+  if (last_step_) {
+    const double turn_deg = std::fabs(atan2(cross(*last_step_, step), dot(*last_step_, step))) * 180.0 / kPi;
     max_turn_deg_ = std::max(max_turn_deg_, turn_deg);
     ++histogram_[std::min(static_cast<std::size_t>(turn_deg / kTurnBinDeg), kTurnBins - 1)];
   }
-  stepped_ = true;
   last_step_ = step;
   last_mark_ = position;
 }
 
 void Smoothness::add(Time t, double speed_mps) {
-  samples_.push_back({t, speed_mps, 0.0, false});
+  samples_.push_back({t, speed_mps});
   while (samples_.size() > 1 && t - samples_[1].t >= kWindow) samples_.pop_front();
   const Sample& before = samples_.front();
   if (t - before.t < kWindow) return;
   Sample& now = samples_.back();
   const double window_s = to_seconds(t - before.t);
   now.accel_mps2 = (speed_mps - before.speed_mps) / window_s;
-  now.has_accel = true;
-  accel_.add(std::fabs(now.accel_mps2));
-  if (before.has_accel) jerk_.add(std::fabs(now.accel_mps2 - before.accel_mps2) / window_s);
+  accel_.add(std::fabs(*now.accel_mps2));
+  if (before.accel_mps2) jerk_.add(std::fabs(*now.accel_mps2 - *before.accel_mps2) / window_s);
 }
 
 double LoopCount::loop_since_s() const {
@@ -70,12 +56,12 @@ double LoopCount::loop_since_s() const {
 }
 
 void LoopCount::add(double t_s, const Pose2& pose, Vec2 goal) {
-  if (!begun_ || !(goal == goal_)) pieces_.clear();
-  if (begun_) {
-    way_m_ += distance(last_.position(), pose.position());
-    turned_rad_ += wrap_angle(pose.heading - last_.heading);
+  if (!(goal == goal_)) pieces_.clear();
+  if (last_) {
+    way_m_ += distance(last_->position(), pose.position());
+    turned_rad_ += wrap_angle(pose.heading - last_->heading);
   }
-  begun_ = true, last_ = pose, goal_ = goal;
+  last_ = pose, goal_ = goal;
   if (pieces_.empty() || way_m_ - pieces_.back().way_m > kPiece_m)
     pieces_.push_back({way_m_, turned_rad_, turned_rad_, t_s, t_s});
   Piece& newest = pieces_.back();
@@ -105,34 +91,6 @@ void DetourCount::judge(double t_s, double to_go_m) {
     detours_.back().to_s = t_s;
   else
     detours_.push_back({from_s_, t_s});
-}
-
-void Moments::add(double from_s, double for_s, Vec2 position_in_map, const std::string& what) {
-  moments_.push_back({from_s, for_s, position_in_map, what, kFor_m});
-}
-
-void Moments::note(double t_s, unsigned id, Vec2 position, Vec2 velocity) {
-  for (Moment& moment : moments_) {
-    const double away = distance(position, moment.where);
-    if (t_s < moment.from_s || t_s > moment.from_s + moment.for_s || away >= moment.nearest_m) continue;
-    moment.nearest_m = away, moment.id = id, moment.speed_mps = norm(velocity);
-  }
-}
-
-std::string Moments::words(const std::string& title) const {
-  std::vector<Moment> longest = moments_;
-  std::stable_sort(longest.begin(), longest.end(), [](const Moment& a, const Moment& b) { return a.for_s > b.for_s; });
-  longest.resize(std::min(longest.size(), kMostLines));
-  std::string text;
-  for (const Moment& moment : longest) {
-    text += place_of(moment.from_s, moment.where) + formatted(", for %.1f s", moment.for_s) +
-            (moment.what.empty() ? "" : ": " + moment.what);
-    text += moment.id == 0 ? "; nobody was near\n"
-                           : formatted("; body %u was %.1f m from its middle and %s\n", moment.id, moment.nearest_m,
-                                       moment.speed_mps > kWalks_mps ? "walked" : "stood");
-  }
-  if (moments_.size() > kMostLines) text += "  and " + std::to_string(moments_.size() - kMostLines) + " shorter\n";
-  return text.empty() ? "" : title + "\n" + text;
 }
 
 }  // namespace jaywalk

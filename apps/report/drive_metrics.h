@@ -1,12 +1,12 @@
 #pragma once
-// Metrics of a run: path, smoothness, loops, detours, and share granted to a person's stick.
-// Describes in words where a run waited or turned round, when, for how long and for which mover.
+// Metrics of a run: path, smoothness, loops, detours, and share granted to a person's stick; and a run in words.
 #include <algorithm>
 #include <array>
 #include <cstdint>
 #include <deque>
 #include <filesystem>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -36,12 +36,10 @@ class PathShape {
  private:
   void mark(Vec2 position);
 
-  bool begun_ = false;
-  Vec2 newest_;
+  std::optional<Vec2> newest_;
   Vec2 last_mark_;
-  double since_mark_m_ = 0.0;  ///< travel from the last mark to `newest_`
-  Vec2 last_step_;             ///< from the last mark but one to the last
-  bool stepped_ = false;
+  double since_mark_m_ = 0.0;      ///< travel from the last mark to `newest_`
+  std::optional<Vec2> last_step_;  ///< from the last mark but one to the last
   double length_m_ = 0.0;
   double max_turn_deg_ = 0.0;
   std::array<std::uint32_t, kTurnBins> histogram_{};
@@ -63,8 +61,7 @@ class Smoothness {
   struct Sample {
     Time t;
     double speed_mps = 0.0;
-    double accel_mps2 = 0.0;
-    bool has_accel = false;
+    std::optional<double> accel_mps2 = {};
   };
   std::deque<Sample> samples_;  ///< the first is the youngest that is at least kWindow old
   Distribution accel_, jerk_;
@@ -91,8 +88,7 @@ class LoopCount {
   /// The last moment since which the robot has turned by a loop; NaN: there is none.
   [[nodiscard]] double loop_since_s() const;
 
-  bool begun_ = false;
-  Pose2 last_;
+  std::optional<Pose2> last_;
   Vec2 goal_;
   double way_m_ = 0.0, turned_rad_ = 0.0;
   std::deque<Piece> pieces_;  ///< of the last 10 m
@@ -148,29 +144,6 @@ class GrantedShare {
   std::uint64_t ticks_ = 0;
   bool steered_ = false;
   Time last_ = kNever;
-};
-
-/// Moments of a run, each with the body that came nearest meanwhile.
-class Moments {
- public:
-  /// The robot was there from then on for so long; `what` in words, or empty.
-  void add(double from_s, double for_s, Vec2 position_in_map, const std::string& what);
-  /// A body as it was tracked; times in any order.
-  void note(double t_s, unsigned id, Vec2 position_in_map, Vec2 velocity_in_map);
-  /// `title` and a line each, the longest of them; empty: there was none.
-  [[nodiscard]] std::string words(const std::string& title) const;
-  [[nodiscard]] bool any() const { return !moments_.empty(); }
-
- private:
-  struct Moment {
-    double from_s, for_s;
-    Vec2 where;
-    std::string what;
-    double nearest_m;
-    unsigned id = 0;
-    double speed_mps = 0.0;
-  };
-  std::vector<Moment> moments_;
 };
 
 /// Plain words about the run in `folder`: distance, time driven, time stood with its causes, faults. A killed run has

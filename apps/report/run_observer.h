@@ -2,7 +2,6 @@
 // Observer of a run: its report, tables and pictures.
 #include <filesystem>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -13,30 +12,6 @@
 #include "firmware/run_sample.h"
 
 namespace jaywalk {
-/// What of a run its picture shows.
-struct ShownRun {
-  const ControlSetup& setup;
-  const RunReport& figures;
-  const EvidenceMap& map;
-  const char* planner;
-  const OperatorInput& wanted;
-  std::span<const sim::WallSegment> walls;  ///< the real ones; without them the picture shows what the robot saw
-};
-
-/// Gathers what run.png and run.svg show while a run goes on. Works outside the tick.
-class RunPicture {
- public:
-  /// Keeps the plan of the busiest moment.
-  void consider(const ControlLoop& loop, const Planner& planner, const Pose2& map_from_robot);
-  /// Writes run.png and run.svg into `folder`; run.svg alone where pictures cannot be drawn. Returns the one to look
-  /// at.
-  std::filesystem::path save(const std::filesystem::path& folder, const std::string& title, const ShownRun& run) const;
-
- private:
-  BusiestMoment busiest_;
-  std::uint32_t plan_seen_ = 0;
-};
-
 /// What a run leaves in its folder beside the recording: tables, summary, pictures, and run.mcap where that is wanted.
 class RunObserver : public TickObserver {
  public:
@@ -52,17 +27,22 @@ class RunObserver : public TickObserver {
   void end_tables() override { report_->end_tables(); }
   [[nodiscard]] std::uintmax_t bytes() const override { return report_->bytes(); }
   [[nodiscard]] std::vector<std::string> complaints() const override { return report_->complaints(); }
-  [[nodiscard]] bool is_losing() const override { return report_->is_losing(); }
-  /// Returns the picture.
+  [[nodiscard]] bool is_losing() const override { return !complaints().empty(); }
+  /// Writes summary and pictures: run.svg, and run.png where it can be drawn. Returns the one to look at.
   std::filesystem::path finish(const RunEnd& end, const ControlLoop& loop, const Planner& planner) override;
 
  private:
+  /// Keeps the plan of the busiest moment.
+  void consider(const ControlLoop& loop, const Planner& planner);
+  [[nodiscard]] PictureScene scene(const ControlLoop& loop, const Planner& planner) const;
+
   bool wants_mcap_;
   std::filesystem::path out_;
   ControlSetup setup_;
   std::optional<RunReport> report_;
   std::optional<RunExporter> exporter_;
-  RunPicture picture_;
+  BusiestMoment busiest_;
+  std::uint32_t plan_seen_ = 0;
   std::vector<sim::WallSegment> walls_;
   OperatorInput wanted_;  ///< the last tick's, as its pose
   Pose2 map_from_robot_;

@@ -7,6 +7,7 @@
 #include <cerrno>
 #include <cmath>
 #include <cstring>
+#include <iterator>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <system_error>
@@ -21,9 +22,6 @@ namespace {
 constexpr off_t kBytes = 64 * 1024;  // a summary.json and a devices.json have 2 to 5 kB
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-
-void add_pose(CsvFile& table, const Pose2& pose) { table.number(pose.x).number(pose.y).number(pose.heading); }
-void add_vector(CsvFile& table, Vec2 v) { table.number(v.x).number(v.y); }
 
 using Json = nlohmann::ordered_json;
 
@@ -62,11 +60,6 @@ Json known(const std::optional<T>& value) {
   return value ? Json(*value) : Json(nullptr);
 }
 
-std::vector<std::string> all_complaints(std::vector<std::string> some, const std::vector<std::string>& others) {
-  some.insert(some.end(), others.begin(), others.end());
-  return some;
-}
-
 /// When each began, and how long it took.
 void add_times(Json& j, const std::string& of, const std::vector<Episode>& episodes) {
   Json at = Json::array(), lasted = Json::array();
@@ -90,11 +83,12 @@ DiskReserve::DiskReserve(const std::filesystem::path& folder) : file_(folder / "
   const int error = descriptor < 0 ? errno : ::posix_fallocate(descriptor, 0, kBytes);
   if (descriptor >= 0) ::close(descriptor);
   if (error != ENOSPC && error != EDQUOT) return;
-  release();
+  std::error_code gone;
+  std::filesystem::remove(file_, gone);
   throw StartupError(folder.string() + ": " + std::strerror(error), "free some space, or choose another --out folder");
 }
 
-void DiskReserve::release() noexcept {
+DiskReserve::~DiskReserve() {
   std::error_code gone;
   std::filesystem::remove(file_, gone);
 }
@@ -126,44 +120,33 @@ std::vector<std::string> RunTables::complaints() const {
 
 void RunTables::add_robot(const RunSample& sample) {
   const TickRecord& r = sample.record;
-  robot_.seconds(sample.now);
-  add_pose(robot_, sample.truth ? sample.truth->map_from_robot : Pose2{kUnknown, kUnknown, kUnknown});
-  const Twist2 twist = sample.truth ? sample.truth->twist : Twist2{kUnknown, kUnknown};
-  robot_.number(twist.v_mps).number(twist.w_radps);
-  add_pose(robot_, r.pose.map_from_robot);
-  robot_.number(r.wanted.v_mps).number(r.verdict.permitted.v_mps);
+  const TrueState unknown{{kUnknown, kUnknown, kUnknown}, {kUnknown, kUnknown}, {}};
+  const TrueState& truth = sample.truth != nullptr ? *sample.truth : unknown;
+  robot_.seconds(sample.now).pose(truth.map_from_robot).number(truth.twist.v_mps).number(truth.twist.w_radps);
+  robot_.pose(r.pose.map_from_robot).number(r.wanted.v_mps).number(r.verdict.permitted.v_mps);
   robot_.number(r.command.left_radps).number(r.command.right_radps);
   robot_.text(to_string(r.verdict.reasons, r.verdict.faulty_scanners)).end_row();
 }
 
 void RunTables::add_movers(const RunSample& sample) {
   for (const TrueMover& mover : sample.truth->movers) {
-    movers_.seconds(sample.now).count(mover.id);
-    add_vector(movers_, mover.position_in_map);
-    add_vector(movers_, mover.velocity_in_map);
+    movers_.seconds(sample.now).count(mover.id).vector(mover.position_in_map).vector(mover.velocity_in_map);
     movers_.count(mover.forced ? 1 : 0).end_row();
   }
 }
 
 void RunTables::add_tracks(const RunSample& sample) {
   for (const Track& track : sample.tracks) {
-    tracks_.seconds(sample.scanned).count(track.id);
-    add_vector(tracks_, track.position_in_map);
-    add_vector(tracks_, track.velocity_in_map);
+    tracks_.seconds(sample.scanned).count(track.id).vector(track.position_in_map).vector(track.velocity_in_map);
     tracks_.count(track.moving ? 1 : 0).number(std::sqrt(track.covariance.pp)).number(track.radius_m);
     tracks_.count(track.is_pedestrian ? 1 : 0).end_row();
   }
 }
 
 RunReport::RunReport(const std::filesystem::path& folder, const std::filesystem::path& tables)
-    : folder_(folder),
-      tables_(open_tables(folder, tables)),
-      min_clearance_m_(std::numeric_limits<double>::infinity()),
-      min_mover_clearance_m_(std::numeric_limits<double>::infinity()) {
+    : folder_(folder), tables_(open_tables(folder, tables)) {
   if (tables_) reserve_.emplace(folder_);
 }
-
-RunReport::~RunReport() = default;
 
 void RunReport::continue_in(const std::filesystem::path& tables, Time last) {
   if (next_tables_) turn_to_next_tables();  // their first tick was not kept
@@ -195,7 +178,11 @@ void RunReport::add(const RunSample& sample) {
   if (ticks_++ == 0) first_ = now;
   last_ = now;
   tick_ms_.add(to_seconds(sample.tick_took) * 1e3);
-  if (sample.plan_took) add_plan(*sample.plan_took);
+  if (sample.plan_took) {
+    plan_ms_.add(sample.plan_took->ms);
+    plan_processor_ms_.add(sample.plan_took->processor_ms);
+    plan_device_ms_.add(sample.plan_took->device_ms);
+  }
   const Pose2& pose = sample.truth ? sample.truth->map_from_robot : sample.record.pose.map_from_robot;
   add_way(pose, sample);
   if (sample.truth != nullptr) add_truth(*sample.truth, now);
@@ -211,12 +198,6 @@ void RunReport::add_faults(Reason reasons) {
   is_faulty_ = is_faulty;
 }
 
-void RunReport::add_plan(const PlanTook& took) {
-  plan_ms_.add(took.ms);
-  plan_processor_ms_.add(took.processor_ms);
-  plan_device_ms_.add(took.device_ms);
-}
-
 void RunReport::add_way(const Pose2& pose, const RunSample& sample) {
   shape_.add(pose.position());
   driven_.add(sample.record.now, pose, sample.record.scan);
@@ -230,14 +211,12 @@ void RunReport::add_way(const Pose2& pose, const RunSample& sample) {
 }
 
 void RunReport::add_truth(const TrueState& truth, Time now) {
-  has_truth_ = true;
   smoothness_.add(now, truth.twist.v_mps);
-  min_clearance_m_ = std::min(min_clearance_m_, truth.clearance_m);
-  min_mover_clearance_m_ = std::min(min_mover_clearance_m_, truth.mover_clearance_m);
-  contacts_ = truth.contacts;
-  contacts_caused_ = truth.contacts_caused;
-  forced_movers_ = truth.forced_movers;
-  social_ = truth.social;
+  const TrueState before = truth_.value_or(TrueState{});
+  truth_ = truth;
+  truth_->movers = {};
+  truth_->clearance_m = std::min(before.clearance_m, truth.clearance_m);
+  truth_->mover_clearance_m = std::min(before.mover_clearance_m, truth.mover_clearance_m);
   for (const TrueMover& mover : truth.movers) {
     movers_.add(mover.id, now, mover.position_in_map, mover.radius_m, mover.forced);
   }
@@ -252,7 +231,9 @@ void RunReport::add_tracks(const RunSample& sample) {
 }
 
 std::vector<std::string> RunReport::complaints() const {
-  return tables_ ? all_complaints(lost_, tables_->complaints()) : lost_;
+  std::vector<std::string> all = lost_;
+  if (tables_) std::ranges::copy(tables_->complaints(), std::back_inserter(all));
+  return all;
 }
 
 std::string RunReport::finish(const RunEnd& end) {
@@ -264,23 +245,25 @@ std::string RunReport::finish(const RunEnd& end) {
 }
 
 std::string RunReport::summary(const RunEnd& end) const {
+  const bool has_truth = truth_.has_value();
+  const TrueState truth = truth_.value_or(TrueState{});
   Json j;
   j["outcome"] = end.outcome;
-  j["success"] = known(has_truth_, end.success);
+  j["success"] = known(has_truth, end.success);
   j["path_length_m"] = shape_.length_m();
   j["static_shortest_path_m"] = known(end.static_shortest_path_m);
   j["heading_error_rad"] = known(end.heading_error_rad);
   j["found_mount_yaw_rad"] = known(end.found_mount_yaw_rad);
-  j["duration_s"] = ticks_ == 0 ? 0.0 : to_seconds(last_ - first_);
-  j["min_clearance_m"] = known(has_truth_, min_clearance_m_);
-  j["min_mover_clearance_m"] = known(has_truth_, min_mover_clearance_m_);
-  j["forced_movers"] = known(has_truth_, forced_movers_);
-  j["contacts"] = known(has_truth_, contacts_);
-  j["contacts_caused"] = known(has_truth_, contacts_caused_);
-  j["intimate_s"] = known(has_truth_, social_.intimate_s);
-  j["personal_s"] = known(has_truth_, social_.personal_s);
-  j["slowed_m"] = known(has_truth_, social_.slowed_m);
-  j["turned_rad"] = known(has_truth_, social_.turned_rad);
+  j["duration_s"] = duration_s();
+  j["min_clearance_m"] = known(has_truth, truth.clearance_m);
+  j["min_mover_clearance_m"] = known(has_truth, truth.mover_clearance_m);
+  j["forced_movers"] = known(has_truth, truth.forced_movers);
+  j["contacts"] = known(has_truth, truth.contacts);
+  j["contacts_caused"] = known(has_truth, truth.contacts_caused);
+  j["intimate_s"] = known(has_truth, truth.social.intimate_s);
+  j["personal_s"] = known(has_truth, truth.social.personal_s);
+  j["slowed_m"] = known(has_truth, truth.social.slowed_m);
+  j["turned_rad"] = known(has_truth, truth.social.turned_rad);
   j["max_turn_deg"] = shape_.max_turn_deg();
   j["turn_histogram"] = shape_.turn_histogram();
   j["turn_bin_deg"] = kTurnBinDeg;
@@ -297,7 +280,8 @@ std::string RunReport::summary(const RunEnd& end) const {
   j["faults"] = faults_;
   j["missed_ticks"] = end.missed_ticks;
   j["dropped_records"] = end.dropped_records;
-  j["not_recorded"] = all_complaints(complaints(), end.not_recorded);
+  j["not_recorded"] = complaints();
+  for (const std::string& complaint : end.not_recorded) j["not_recorded"].push_back(complaint);
   j["plan_ms"] = spread(plan_ms_);
   j["plan_processor_ms"] = spread(plan_processor_ms_);
   j["plan_device_ms"] = spread(plan_device_ms_);
@@ -314,7 +298,7 @@ std::string RunReport::summary(const RunEnd& end) const {
   j["settings"] = end.settings;
   j["planner"] = known(!end.planner.empty(), end.planner);
   j["mover_rule"] = known(!end.mover_rule.empty(), end.mover_rule);
-  j["measured_on"] = has_truth_ ? "truth" : "estimate";
+  j["measured_on"] = has_truth ? "truth" : "estimate";
   j["version"] = end.version;
   return j.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

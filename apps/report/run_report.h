@@ -20,11 +20,9 @@ class DiskReserve {
  public:
   /// Throws StartupError where the disk has no room for it. A file system that cannot hold room is passed over.
   explicit DiskReserve(const std::filesystem::path& folder);
-  ~DiskReserve() { release(); }
+  ~DiskReserve();
   DiskReserve(const DiskReserve&) = delete;
   DiskReserve& operator=(const DiskReserve&) = delete;
-
-  void release() noexcept;
 
  private:
   std::filesystem::path file_;
@@ -46,9 +44,6 @@ class RunTables {
   void follow(const RunTables& before) noexcept { scan_count_ = before.scan_count_; }
   /// Of all three, with what is not on the disk yet.
   [[nodiscard]] std::uintmax_t bytes() const noexcept { return robot_.bytes() + movers_.bytes() + tracks_.bytes(); }
-  [[nodiscard]] bool is_losing() const noexcept {
-    return robot_.has_failed() || movers_.has_failed() || tracks_.has_failed();
-  }
   /// AppendFile's, of each table that the disk did not take whole.
   [[nodiscard]] std::vector<std::string> complaints() const;
 
@@ -74,7 +69,6 @@ class RunReport {
   explicit RunReport(const std::filesystem::path& folder) : RunReport(folder, folder) {}
   /// The same with the tables in a folder of their own.
   RunReport(const std::filesystem::path& folder, const std::filesystem::path& tables);
-  ~RunReport();
 
   void add(const RunSample& sample);
   /// Rows of ticks later than `last` go to tables in another folder. Throws StartupError where these cannot be made.
@@ -85,7 +79,6 @@ class RunReport {
   [[nodiscard]] std::uintmax_t bytes() const;
   /// What the disk did not take of the tables, a line each; empty: it has taken all so far.
   [[nodiscard]] std::vector<std::string> complaints() const;
-  [[nodiscard]] bool is_losing() const { return !lost_.empty() || (tables_ && tables_->is_losing()); }
   /// Closes the tables, writes summary.json and returns its text. Call once, after the last tick. Throws StartupError
   /// where the disk does not take the summary.
   std::string finish(const RunEnd& end);
@@ -103,7 +96,6 @@ class RunReport {
   void add_truth(const TrueState& truth, Time now);
   void add_tracks(const RunSample& sample);
   void add_faults(Reason reasons);
-  void add_plan(const PlanTook& took);
   void add_way(const Pose2& pose, const RunSample& sample);
   [[nodiscard]] std::string summary(const RunEnd& end) const;
 
@@ -123,10 +115,7 @@ class RunReport {
   std::uint64_t ticks_ = 0, faults_ = 0;
   bool is_faulty_ = false;  ///< in the last tick
   Time first_ = kNever, last_ = kNever;
-  bool has_truth_ = false;
-  double min_clearance_m_, min_mover_clearance_m_;
-  std::uint32_t contacts_ = 0, contacts_caused_ = 0, forced_movers_ = 0;
-  SocialMeasures social_;
+  std::optional<TrueState> truth_;  ///< the last one, without its movers, and the least clearances so far
 };
 
 }  // namespace jaywalk

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "planner/motion/rollout_motion.h"
+#include "planner/prediction/mover_history.h"
 
 namespace jaywalk::baseline {
 namespace {
@@ -26,11 +27,6 @@ motion::MotionBounds bounds_of(const MotionLimits& limits) {
           .jerk = at_most(limits.max_jerk_mps3, kMostJerk)};
 }
 
-template <BaselineMotion::Decide deciding>
-std::unique_ptr<motion::Motion> make(const motion::MotionSetup& setup) {
-  return std::make_unique<BaselineMotion>(deciding, setup);
-}
-
 constexpr float kAhead_m = 0.5F;
 constexpr int kDownDirections = 48;
 constexpr float kArc_s = 0.5F;  ///< T: an arc's time
@@ -40,28 +36,51 @@ float goal_distance(const Scene& scene) noexcept {
   return std::sqrt(dx * dx + dy * dy);
 }
 
-}  // namespace
+/// Decides with each scan, and drives at each tick, with the comfort limits of motion::RolloutMotion.
+class BaselineMotion final : public motion::Motion {
+ public:
+  using Decide = motion::Command (*)(const Scene&) noexcept;
+  BaselineMotion(Decide deciding, const motion::MotionSetup& setup)
+      : decide_(deciding),
+        bounds_(bounds_of(setup.model.limits)),
+        radius_(static_cast<float>(setup.model.footprint.circumscribed_radius_m())),
+        tick_s_(static_cast<float>(setup.tick_s)),
+        tolerance_m_(static_cast<float>(setup.goal_tolerance_m)),
+        speed_mps_(setup.model.limits.max_speed_mps) {}
 
-motion::Command none(const Scene& scene) noexcept { return driven_along(scene, way_down(scene), speed_to_goal(scene)); }
+  void observe(const motion::World& world, const motion::Intent&) noexcept override {
+    status_.rests_on = std::min(seen_, world.plan.stamp);
+  }
+  void decide(const motion::World& world, const motion::Intent& intent) noexcept override;
+  [[nodiscard]] Twist2 command(const motion::World& world, const motion::Intent& intent) noexcept override;
+  [[nodiscard]] motion::MotionStatus status() const noexcept override { return status_; }
+  [[nodiscard]] PlanRequest request(const motion::World& world) const noexcept override {
+    return {.stamp = world.scan.stamp,
+            .map_from_robot = world.map_from_robot,
+            .goal_in_map = world.input.goal_in_map,
+            .speed_mps = speed_mps_,
+            .still = &world.perceived.still,
+            .masked = memory_.masked()};
+  }
+  [[nodiscard]] Duration plan_every() const noexcept override { return std::chrono::milliseconds(90); }
 
-BaselineMotion::BaselineMotion(Decide deciding, const motion::MotionSetup& setup)
-    : decide_(deciding),
-      bounds_(bounds_of(setup.model.limits)),
-      radius_(static_cast<float>(setup.model.footprint.circumscribed_radius_m())),
-      tick_s_(static_cast<float>(setup.tick_s)),
-      tolerance_m_(static_cast<float>(setup.goal_tolerance_m)),
-      speed_mps_(setup.model.limits.max_speed_mps) {}
-
-void BaselineMotion::observe(const motion::World& world, const motion::Intent&) noexcept {
-  status_.rests_on = std::min(seen_, world.plan.stamp);
-}
+ private:
+  Decide decide_;
+  motion::MotionBounds bounds_;
+  float radius_, tick_s_, tolerance_m_;
+  double speed_mps_;
+  motion::MoverHistory memory_;  ///< tells walls from pedestrians in the plans that it asks for
+  motion::Command decided_, commanded_;
+  Time decided_at_ = kNever, seen_ = kNever;
+  float accel_ = 0.0F;  ///< of the ramp
+  motion::MotionStatus status_;
+};
 
 void BaselineMotion::decide(const motion::World& world, const motion::Intent& intent) noexcept {
   if (!world.new_scan || !finite(world.map_from_robot)) return;
   const Guide& guide = world.plan.guide;
   const SeenFrom newest = world.newest();
   memory_.update({world.now,
-                  world.scan.stamp,
                   world.map_from_robot,
                   world.perceived.tracks,
                   world.perceived.standing,
@@ -98,14 +117,14 @@ Twist2 BaselineMotion::command(const motion::World& world, const motion::Intent&
   return {static_cast<double>(next.v), static_cast<double>(next.w)};
 }
 
-PlanRequest BaselineMotion::request(const motion::World& world) const noexcept {
-  return {.stamp = world.scan.stamp,
-          .map_from_robot = world.map_from_robot,
-          .goal_in_map = world.input.goal_in_map,
-          .speed_mps = speed_mps_,
-          .still = &world.perceived.still,
-          .masked = memory_.masked()};
+template <BaselineMotion::Decide deciding>
+std::unique_ptr<motion::Motion> make(const motion::MotionSetup& setup) {
+  return std::make_unique<BaselineMotion>(deciding, setup);
 }
+
+}  // namespace
+
+motion::Command none(const Scene& scene) noexcept { return driven_along(scene, way_down(scene), speed_to_goal(scene)); }
 
 motion::MakeMotion maker_of(const std::string& name) noexcept {
   if (name == "none") return make<none>;

@@ -1,5 +1,6 @@
 #pragma once
 // Planners of others, simple and honest, to hold ours against: the same tracks, the same walls, the same supervisor.
+#include <Eigen/Core>
 #include <span>
 #include <string>
 
@@ -7,7 +8,6 @@
 #include "planner/cost_to_go/guide.h"
 #include "planner/motion/motion.h"
 #include "planner/motion/robot_motion.h"
-#include "planner/prediction/mover_history.h"
 #include "planner/tracking/track.h"
 
 namespace jaywalk::baseline {
@@ -25,6 +25,11 @@ struct Scene {
   float radius = 0.0F;  ///< of the circle about the robot
 };
 
+/// From a place to a track, m.
+[[nodiscard]] inline Eigen::Vector2f offset_to(const Track& track, float x, float y) noexcept {
+  return {static_cast<float>(track.position_in_map.x) - x, static_cast<float>(track.position_in_map.y) - y};
+}
+
 [[nodiscard]] motion::Command none(const Scene& scene) noexcept;
 [[nodiscard]] motion::Command replan(const Scene& scene) noexcept;
 /// Fox, Burgard and Thrun 1997, "The dynamic window approach to collision avoidance", with the progress towards the
@@ -34,31 +39,6 @@ struct Scene {
 /// Alonso-Mora and others 2013, "Optimal reciprocal collision avoidance for multiple non-holonomic robots". The robot
 /// alone gives way: these movers do not.
 [[nodiscard]] motion::Command orca(const Scene& scene) noexcept;
-
-/// Decides with each scan, and drives at each tick, with the comfort limits of motion::RolloutMotion.
-class BaselineMotion final : public motion::Motion {
- public:
-  using Decide = motion::Command (*)(const Scene&) noexcept;
-  BaselineMotion(Decide deciding, const motion::MotionSetup& setup);
-
-  void observe(const motion::World& world, const motion::Intent& intent) noexcept override;
-  [[nodiscard]] Twist2 command(const motion::World& world, const motion::Intent& intent) noexcept override;
-  void decide(const motion::World& world, const motion::Intent& intent) noexcept override;
-  [[nodiscard]] motion::MotionStatus status() const noexcept override { return status_; }
-  [[nodiscard]] PlanRequest request(const motion::World& world) const noexcept override;
-  [[nodiscard]] Duration plan_every() const noexcept override { return std::chrono::milliseconds(90); }
-
- private:
-  Decide decide_;
-  motion::MotionBounds bounds_;
-  float radius_, tick_s_, tolerance_m_;
-  double speed_mps_;
-  motion::MoverHistory memory_;  ///< tells walls from pedestrians in the plans that it asks for
-  motion::Command decided_, commanded_;
-  Time decided_at_ = kNever, seen_ = kNever;
-  float accel_ = 0.0F;  ///< of the ramp
-  motion::MotionStatus status_;
-};
 
 /// What makes the motion of that name: "none", "replan", "dwa", "orca"; any other name: ours.
 [[nodiscard]] motion::MakeMotion maker_of(const std::string& name) noexcept;

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 
 #include "apps/rivals/baseline.h"
 
@@ -15,11 +14,8 @@ constexpr float kFar_m = 1.5F;                                                  
 /// From the robot's circle to the nearest wall or to the nearest track where it is now.
 float clearance(const Scene& scene, float x, float y) noexcept {
   float least = scene.guide.room(x, y);
-  for (const Track& track : scene.tracks) {
-    const float dx = static_cast<float>(track.position_in_map.x) - x,
-                dy = static_cast<float>(track.position_in_map.y) - y;
-    least = std::min(least, std::sqrt(dx * dx + dy * dy) - static_cast<float>(track.radius_m));
-  }
+  for (const Track& track : scene.tracks)
+    least = std::min(least, offset_to(track, x, y).norm() - static_cast<float>(track.radius_m));
   return least - scene.radius - kMargin_m;
 }
 

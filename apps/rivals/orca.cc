@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "apps/rivals/baseline.h"
 
@@ -13,19 +14,12 @@ constexpr float kPartWithin_s = 0.07F;  ///< within which an overlap is to end: 
 constexpr int kWalls = 16;
 constexpr float kTolerance = 1e-4F;
 
-struct Velocity {
-  float x = 0.0F, y = 0.0F;
-};
-float dot(Velocity a, Velocity b) { return a.x * b.x + a.y * b.y; }
-Velocity operator-(Velocity a, Velocity b) { return {a.x - b.x, a.y - b.y}; }
-Velocity operator+(Velocity a, Velocity b) { return {a.x + b.x, a.y + b.y}; }
-Velocity operator*(float s, Velocity a) { return {s * a.x, s * a.y}; }
-float length(Velocity a) { return std::sqrt(dot(a, a)); }
+using Velocity = Eigen::Vector2f;
 
 /// Velocities v with (v - point) . outward >= 0 are allowed.
 struct HalfPlane {
   Velocity point, outward;
-  [[nodiscard]] float room(Velocity v) const { return dot(v - point, outward); }
+  [[nodiscard]] float room(const Velocity& v) const { return (v - point).dot(outward); }
 };
 
 struct Constraints {
@@ -34,8 +28,8 @@ struct Constraints {
   float speed = 0.0F;
 
   void add(const HalfPlane& plane) { planes[count++] = plane; }
-  [[nodiscard]] float least_room(Velocity v) const {
-    float least = speed - length(v);
+  [[nodiscard]] float least_room(const Velocity& v) const {
+    float least = speed - v.norm();
     for (std::size_t k = 0; k < count; ++k) least = std::min(least, planes[k].room(v));
     return least;
   }
@@ -43,37 +37,35 @@ struct Constraints {
 
 /// The smallest change u of the relative velocity that leaves the velocity obstacle, equations (3) to (5): the cone of
 /// `apart` (m) with the disc of `radius` cut off at tau.
-HalfPlane plane_of(Velocity apart, Velocity relative, float radius, Velocity own) noexcept {
-  const float distance = length(apart);
+HalfPlane plane_of(const Velocity& apart, const Velocity& relative, float radius, const Velocity& own) noexcept {
+  const float distance = apart.norm();
   const bool overlaps = distance < radius;
   const float horizon = overlaps ? kPartWithin_s : kTau_s;
   const Velocity from_centre = relative - (1.0F / horizon) * apart;  // of the cut-off disc
-  const float along = dot(from_centre, apart), size = length(from_centre);
+  const float along = from_centre.dot(apart), size = from_centre.norm();
   Velocity outward, change;
-  if (overlaps || (along < 0.0F && along * along > radius * radius * dot(from_centre, from_centre))) {
+  if (overlaps || (along < 0.0F && along * along > radius * radius * from_centre.squaredNorm())) {
     outward = size > 1e-6F ? (1.0F / size) * from_centre : (-1.0F / std::max(distance, 1e-6F)) * apart;
     change = (radius / horizon - size) * outward;
   } else {  // on the legs
     const float leg = std::sqrt(std::max(distance * distance - radius * radius, 0.0F));
-    const bool left = apart.x * from_centre.y - apart.y * from_centre.x > 0.0F;
+    const bool left = apart.x() * from_centre.y() - apart.y() * from_centre.x() > 0.0F;
     const float side = left ? 1.0F : -1.0F, squared = distance * distance;
-    const Velocity direction{(apart.x * leg - side * apart.y * radius) / squared,
-                             (side * apart.x * radius + apart.y * leg) / squared};
-    change = dot(relative, direction) * direction - relative;
-    outward = {-side * direction.y, side * direction.x};
+    const Velocity direction{(apart.x() * leg - side * apart.y() * radius) / squared,
+                             (side * apart.x() * radius + apart.y() * leg) / squared};
+    change = relative.dot(direction) * direction - relative;
+    outward = {-side * direction.y(), side * direction.x()};
   }
   return {own + change, outward};
 }
 
-void add_movers(const Scene& scene, Velocity own, Constraints& constraints) noexcept {
+void add_movers(const Scene& scene, const Velocity& own, Constraints& constraints) noexcept {
   for (const Track& track : scene.tracks.first(std::min(scene.tracks.size(), kMaxTracks))) {
-    const Velocity apart{static_cast<float>(track.position_in_map.x) - scene.now.x,
-                         static_cast<float>(track.position_in_map.y) - scene.now.y};
-    Velocity walks{};
+    Velocity walks = Velocity::Zero();
     if (track.moving)
       walks = {static_cast<float>(track.velocity_in_map.x), static_cast<float>(track.velocity_in_map.y)};
     const float radius = scene.radius + static_cast<float>(track.radius_m) + kMargin_m;
-    constraints.add(plane_of(apart, own - walks, radius, own));
+    constraints.add(plane_of(offset_to(track, scene.now.x, scene.now.y), own - walks, radius, own));
   }
 }
 
@@ -97,52 +89,36 @@ void add_walls(const Scene& scene, Constraints& constraints) noexcept {
   }
 }
 
-/// The allowed velocity nearest to the preferred: the preferred, its foot on an edge, or a corner.
-class Nearest {
- public:
-  Nearest(const Constraints& constraints, Velocity preferred) : constraints_(constraints), preferred_(preferred) {
-    consider(preferred);
-    for (std::size_t i = 0; i < constraints.count; ++i) {
-      const HalfPlane& edge = constraints.planes[i];
-      const Velocity foot = preferred - edge.room(preferred) * edge.outward, along{-edge.outward.y, edge.outward.x};
-      consider(foot);
-      consider_circle(foot, along);
-      for (std::size_t j = 0; j < i; ++j) consider_corner(foot, along, constraints.planes[j]);
+/// The allowed velocity nearest to the preferred: the preferred, its foot on an edge, or a corner; none: nothing is
+/// allowed.
+std::optional<Velocity> nearest(const Constraints& constraints, const Velocity& preferred) noexcept {
+  std::optional<Velocity> best;
+  const auto consider = [&](const Velocity& v) {
+    if (best && (v - preferred).norm() >= (*best - preferred).norm()) return;
+    if (!(constraints.least_room(v) < -kTolerance)) best = v;
+  };
+  consider(preferred);
+  for (std::size_t i = 0; i < constraints.count; ++i) {
+    const HalfPlane& edge = constraints.planes[i];
+    const Velocity foot = preferred - edge.room(preferred) * edge.outward;
+    const Velocity along{-edge.outward.y(), edge.outward.x()};
+    consider(foot);
+    const float b = foot.dot(along), c = foot.squaredNorm() - constraints.speed * constraints.speed;
+    if (!(b * b < c))  // the edge meets the circle of the highest speed
+      for (const float root : {std::sqrt(b * b - c), -std::sqrt(b * b - c)}) consider(foot + (-b + root) * along);
+    for (const HalfPlane& other : std::span(constraints.planes).first(i)) {
+      const float slope = along.dot(other.outward);
+      if (std::fabs(slope) > 1e-5F) consider(foot - (other.room(foot) / slope) * along);
     }
   }
-  [[nodiscard]] bool found() const { return found_; }
-  [[nodiscard]] Velocity best() const { return best_; }
-
- private:
-  void consider(Velocity v) {
-    const float off = length(v - preferred_);
-    if (found_ && off >= off_) return;
-    if (constraints_.least_room(v) < -kTolerance) return;
-    best_ = v, off_ = off, found_ = true;
-  }
-  void consider_circle(Velocity foot, Velocity along) {
-    const float b = dot(foot, along), c = dot(foot, foot) - constraints_.speed * constraints_.speed;
-    if (b * b < c) return;
-    const float root = std::sqrt(b * b - c);
-    consider(foot + (-b + root) * along);
-    consider(foot + (-b - root) * along);
-  }
-  void consider_corner(Velocity foot, Velocity along, const HalfPlane& other) {
-    const float slope = dot(along, other.outward);
-    if (std::fabs(slope) > 1e-5F) consider(foot - (other.room(foot) / slope) * along);
-  }
-
-  const Constraints& constraints_;
-  Velocity preferred_, best_;
-  float off_ = 0.0F;
-  bool found_ = false;
-};
+  return best;
+}
 
 /// Where nothing is allowed: the velocity that breaks the worst constraint least (their third linear programme), of a
 /// grid of directions and speeds.
 Velocity least_bad(const Constraints& constraints) noexcept {
   constexpr int kDirections = 32, kSpeeds = 6;
-  Velocity best{};
+  Velocity best = Velocity::Zero();
   float most = constraints.least_room(best);
   for (int i = 0; i < kDirections; ++i) {
     const cell::Heading d = cell::heading_at(2.0F * cell::kPiF * static_cast<float>(i) / kDirections);
@@ -166,11 +142,11 @@ motion::Command orca(const Scene& scene) noexcept {
   constraints.speed = scene.bounds.speed;
   add_movers(scene, own, constraints);
   add_walls(scene, constraints);
-  const Nearest nearest(constraints, {speed * down.x, speed * down.y});
-  const Velocity chosen = nearest.found() ? nearest.best() : least_bad(constraints);
-  const float size = length(chosen);
+  const auto allowed = nearest(constraints, {speed * down.x, speed * down.y});
+  const Velocity chosen = allowed ? *allowed : least_bad(constraints);
+  const float size = chosen.norm();
   if (size < 0.01F) return {0.0F, driven_along(scene, down, 0.0F).w};
-  return driven_along(scene, {chosen.x / size, chosen.y / size}, size);
+  return driven_along(scene, {chosen.x() / size, chosen.y() / size}, size);
 }
 
 }  // namespace jaywalk::baseline

@@ -10,17 +10,10 @@
 #include "hal/text_file.h"
 #include "hal/types/errors.h"
 
-#ifndef JAYWALK_HAS_CUDA
-#define JAYWALK_HAS_CUDA 0
-#endif
-#if JAYWALK_HAS_CUDA
+#if defined(JAYWALK_HAS_CUDA) && JAYWALK_HAS_CUDA
 #include "cuda/paper/cuda_paper.h"
-#endif
-
-namespace jaywalk {
-
-#if !JAYWALK_HAS_CUDA
-namespace paper {
+#else
+namespace jaywalk::paper {
 namespace {
 std::unique_ptr<Planner> make_cuda_paper_planner(const PaperConfig&, int, std::string& why_not) {
   why_not = "cuda: not in this build";
@@ -31,22 +24,13 @@ std::unique_ptr<MapField> make_cuda_map_field(const CellMap&, int, std::string& 
   return nullptr;
 }
 }  // namespace
-}  // namespace paper
+}  // namespace jaywalk::paper
 #endif
 
+namespace jaywalk {
 namespace {
 
-ChosenPlanner make_planner_of_paper(const ControlSetup& setup) {
-  return make_paper_planner({setup.planner(), setup.mover_radius_m()}, setup.backend, setup.device);
-}
-
 constexpr double kDefaultCell_m = 0.1;
-
-void check_size(const std::string& file, double width, double height) {
-  const double most = paper::kMostMapCells;
-  if (width <= most && height <= most) return;
-  throw StartupError(file + ": more than 2048 cells a side", "choose larger cells: --resolution");
-}
 
 MapCells cells_of(sim::Raster raster) {
   return {{raster.width, raster.height, std::move(raster.solid)}, raster.map_from_raster, raster.cell_m};
@@ -56,10 +40,11 @@ MapCells cells_of(sim::Raster raster) {
 /// no gap for a step to a neighbour on a cell's side.
 MapCells drawn_cells(const std::filesystem::path& file, sim::WallMap map, double cell_m) {
   const sim::Walls walls(std::move(map));
-  const sim::Box box = walls.bounds();
+  const Box2 box = walls.bounds();
   const double width = std::floor((box.high.x - box.low.x) / cell_m) + 2.0;
   const double height = std::floor((box.high.y - box.low.y) / cell_m) + 2.0;
-  check_size(file.string(), width, height);
+  if (!(width <= paper::kMostMapCells && height <= paper::kMostMapCells))
+    throw StartupError(file.string() + ": more than 2048 cells a side", "choose larger cells: --resolution");
   MapCells drawn{{static_cast<std::int32_t>(width), static_cast<std::int32_t>(height), {}},
                  {box.low.x - cell_m / 2.0, box.low.y - cell_m / 2.0, 0.0},
                  cell_m};
@@ -78,7 +63,9 @@ void equip(ControlSetup& setup) noexcept {
   setup.make_motion = baseline::maker_of(setup.rival);
   if (setup.mode != PlanMode::kPaper) return;
   setup.make_motion = paper::make_motion;
-  setup.make_planner = make_planner_of_paper;
+  setup.make_planner = [](const ControlSetup& of) {
+    return make_paper_planner({of.planner(), of.mover_radius_m()}, of.backend, of.device);
+  };
 }
 
 ChosenPlanner make_paper_planner(const paper::PaperConfig& config, Backend backend, int device) {
@@ -104,7 +91,7 @@ MapCells load_map_cells(const std::filesystem::path& file, std::optional<double>
   require_readable(file, name + ": ", "give a map's path");
   if (ending == ".yaml" || ending == ".yml") {
     if (cell_m) throw StartupError(name + ": says its resolution itself", "leave --resolution out");
-    return cells_of(sim::load_raster_map(file, paper::kMostMapCells).raster);
+    return cells_of(sim::load_raster(file, paper::kMostMapCells));
   }
   if (ending == ".png" || ending == ".pgm") {
     if (!cell_m) throw StartupError(name + ": a picture has no scale", "give --resolution, metres a pixel");

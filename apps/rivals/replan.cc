@@ -53,10 +53,8 @@ class LocalField {
   [[nodiscard]] bool is_blocked(float x, float y) const {
     if (scene_.guide.room(x, y) < scene_.radius) return true;
     return std::any_of(scene_.tracks.begin(), scene_.tracks.end(), [&](const Track& track) {
-      const float dx = static_cast<float>(track.position_in_map.x) - x,
-                  dy = static_cast<float>(track.position_in_map.y) - y;
       const float radius = scene_.radius + static_cast<float>(track.radius_m) + kMargin_m;
-      return dx * dx + dy * dy < radius * radius;
+      return offset_to(track, x, y).squaredNorm() < radius * radius;
     });
   }
   /// At the rim, and at the goal, the way is the one past walls alone.

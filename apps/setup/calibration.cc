@@ -43,12 +43,9 @@ Vector6 vector_of(const RobotGeometry& g) {
 RobotGeometry geometry_of(const Vector6& p) { return {p[0], p[1], p[2], {p[3], p[4], wrap_angle(p[5])}}; }
 
 Matrix6 prior_of(const Vector6& believed) {
-  Matrix6 information = Matrix6::Zero();
-  for (int k = 0; k < 6; ++k) {
-    const double sigma = kBelief[static_cast<std::size_t>(k)] * (k < 3 ? believed[k] : 1.0);
-    information(k, k) = 1.0 / (sigma * sigma);
-  }
-  return information;
+  Vector6 sigma = Vector6::Map(kBelief.data());
+  sigma.head<3>() = sigma.head<3>().cwiseProduct(believed.head<3>());
+  return sigma.cwiseAbs2().cwiseInverse().asDiagonal();
 }
 
 ArcStep arc_of(const WheelTurns& from, const WheelTurns& to, const RobotGeometry& g) {
@@ -190,7 +187,58 @@ std::vector<MotionResidual> residuals(const std::vector<Motion>& motions, const 
   return all;
 }
 
+constexpr std::size_t kMostKeptScans = 2000;
+/// A scan is kept after so much way of the middle, or so much turn.
+constexpr double kApart_m = 0.4, kApart_rad = 0.5;
+constexpr Duration kLongestGap = std::chrono::milliseconds(250);  ///< between readings: what was between is not known
+
+WheelTurns between_two(const WheelTurns& a, const WheelTurns& b, Time stamp) {
+  const double span = to_seconds(b.stamp - a.stamp), share = span > 0.0 ? to_seconds(stamp - a.stamp) / span : 0.0;
+  return {stamp, a.left_rad + share * (b.left_rad - a.left_rad), a.right_rad + share * (b.right_rad - a.right_rad)};
+}
+
 }  // namespace
+
+bool CalibrationLog::is_far_from_last() const {
+  if (scans_.empty()) return true;
+  const double left_m = (wheels_.back().left_rad - at_last_scan_.left_rad) * drive_.wheel_radius_m,
+               right_m = (wheels_.back().right_rad - at_last_scan_.right_rad) * drive_.wheel_radius_m;
+  return std::fabs(left_m + right_m) > 2.0 * kApart_m ||
+         std::fabs(right_m - left_m) > kApart_rad * drive_.track_width_m;
+}
+
+void CalibrationLog::take(const WheelState& wheels, const LaserScan& scan) {
+  if (wheels.sequence != wheel_sequence_) {
+    wheel_sequence_ = wheels.sequence;
+    wheels_.push_back({wheels.stamp, wheels.left_rad, wheels.right_rad});
+  }
+  if (scan.sequence == scan_sequence_ || wheels_.empty()) return;
+  scan_sequence_ = scan.sequence;
+  if (scan.stamp < wheels_.front().stamp || scans_.size() >= kMostKeptScans || !is_far_from_last()) return;
+  at_last_scan_ = wheels_.back();
+  scans_.push_back(scan);
+}
+
+WheelTurns CalibrationLog::at(Time stamp) const {
+  if (wheels_.size() < 2) return wheels_.empty() ? WheelTurns{} : wheels_.front();
+  const auto after = std::ranges::upper_bound(wheels_.begin() + 1, wheels_.end() - 1, stamp, {}, &WheelTurns::stamp);
+  return between_two(*(after - 1), *after, stamp);
+}
+
+std::vector<WheelTurns> CalibrationLog::between(Time from, Time to) const {
+  std::vector<WheelTurns> way{at(from)};
+  for (auto next = std::ranges::upper_bound(wheels_, from, {}, &WheelTurns::stamp);
+       next != wheels_.end() && next->stamp < to; ++next)
+    way.push_back(*next);
+  way.push_back(at(to));
+  for (std::size_t k = 1; k < way.size(); ++k) {
+    const double most_rad = 2.0 * drive_.max_wheel_speed_radps * to_seconds(way[k].stamp - way[k - 1].stamp) + 1e-3;
+    const double turned =
+        std::max(std::fabs(way[k].left_rad - way[k - 1].left_rad), std::fabs(way[k].right_rad - way[k - 1].right_rad));
+    if (way[k].stamp - way[k - 1].stamp > kLongestGap || turned > most_rad) return {};
+  }
+  return way;
+}
 
 RobotGeometry believed_of(const RobotModel& model, std::size_t scanner) {
   const DriveModel& drive = model.drive;

@@ -4,21 +4,15 @@
 // robots", IEEE Transactions on Robotics 29(2), 2013: the same unknowns and residuals; solved here by Gauss and Newton
 // from what is believed, with each match's own information, instead of in closed form).
 #include <cstdint>
-#include <functional>
-#include <span>
 #include <string>
 #include <vector>
 
-#include "hal/hal.h"
+#include "apps/setup/watched_drive.h"
 #include "hal/types/laser_scan.h"
 #include "hal/types/robot_model.h"
 #include "hal/types/wheels.h"
 
 namespace jaywalk {
-
-// The drive of a calibration: straight on and back, an eight.
-
-// Data that a calibration takes from a drive: wheel angles throughout, and scans at a fixed spacing of way.
 
 /// What both wheels had turned by then (rad).
 struct WheelTurns {
@@ -26,14 +20,12 @@ struct WheelTurns {
   double left_rad = 0.0, right_rad = 0.0;
 };
 
+/// Data that a calibration takes from a drive: wheel angles throughout, and scans at a fixed spacing of way, 2000 at
+/// most.
 class CalibrationLog {
  public:
-  /// `drive`: what is believed; it decides when a scan is far enough from the one before. At most kMostScans are kept.
+  /// `drive`: what is believed; it decides when a scan is far enough from the one before.
   explicit CalibrationLog(const DriveModel& drive) : drive_(drive) {}
-
-  static constexpr std::size_t kMostScans = 2000;
-  /// A scan is kept after so much way of the middle, or so much turn.
-  static constexpr double kApart_m = 0.4, kApart_rad = 0.5;
 
   /// A tick's newest reading and scan; the same ones again are passed over.
   void take(const WheelState& wheels, const LaserScan& scan);
@@ -55,21 +47,12 @@ class CalibrationLog {
   std::vector<LaserScan> scans_;
 };
 
-struct GuidedDriveSetup {
-  RobotModel model;
-  Duration tick = std::chrono::milliseconds(20);
-  double straight_m = 1.5;  ///< less where something stands in the way, half of it at least
-  double speed_mps = 0.25, turn_radps = 0.6;
-};
-
-/// Drives armed wheels: forward, half a turn left, back, half a turn right, a circle to the left and one to the right;
-/// about 50 s. It needs straight_m and the body's length ahead, and a metre to each side. The stop zone is in force all
-/// the way; where a turn or a circle has no room, or a wheel does not obey, it ends at rest with a StartupError, as it
-/// does where `stopped` says so. `lasers`: the model's, in its order.
-/// Returns a log of each.
-[[nodiscard]] std::vector<CalibrationLog> drive_guided(const GuidedDriveSetup& setup, DriveBase& drive,
-                                                       std::span<LaserScanner* const> lasers, Clock& clock,
-                                                       const std::function<bool()>& stopped);
+/// Drives armed wheels: 1.5 m forward (half of it at least, where something stands in the way), half a turn left, back,
+/// half a turn right, a circle to the left and one to the right; about 50 s. It needs 1.5 m and the body's length
+/// ahead, and a metre to each side. The stop zone is in force all the way; where a turn or a circle has no room, or a
+/// wheel does not obey, it ends at rest with a StartupError, as it does where `stopped` says so. Returns a log of each
+/// scanner.
+[[nodiscard]] std::vector<CalibrationLog> drive_guided(const ArmedRobot& robot);
 
 struct RobotGeometry {
   double left_radius_m = 0.0, right_radius_m = 0.0, track_width_m = 0.0;

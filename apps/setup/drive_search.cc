@@ -1,6 +1,6 @@
+#include <algorithm>
 #include <array>
 #include <map>
-#include <memory>
 #include <set>
 
 #include "apps/setup/robot_setup.h"
@@ -32,16 +32,15 @@ struct Voices {
       if (std::holds_alternative<odrive::EncoderEstimates>(message->content)) odrive_estimates.insert(message->node);
     }
     if (const auto message = vesc::decode(frame)) {
-      const bool own = std::holds_alternative<vesc::Status>(message->content) ||
-                       std::holds_alternative<vesc::Travel>(message->content);
-      if (own) vescs.insert(message->controller);
+      const auto& content = message->content;
+      if (std::holds_alternative<vesc::Status>(content) || std::holds_alternative<vesc::Travel>(content))
+        vescs.insert(message->controller);
     }
   }
   /// Both messages of an axis: one alone may be some other device's.
   [[nodiscard]] std::set<std::uint8_t> whole_odrives() const {
-    std::set<std::uint8_t> both;
-    for (const std::uint8_t node : odrives)
-      if (odrive_estimates.count(node) != 0) both.insert(node);
+    std::set<std::uint8_t> both = odrives;
+    std::erase_if(both, [this](std::uint8_t node) { return !odrive_estimates.contains(node); });
     return both;
   }
 };
@@ -52,58 +51,38 @@ std::vector<FoundNode> named(const std::set<std::uint8_t>& nodes, const char* sa
   return found;
 }
 
-std::string listed(const std::vector<FoundNode>& nodes) {
-  std::string words;
-  for (const FoundNode& node : nodes) words += (words.empty() ? "" : ", ") + std::to_string(int{node.node});
-  return words;
+/// Asks all of `nodes` at once. What each answers; none where it does not, or has no such object.
+std::map<std::uint8_t, std::uint32_t> ask(CanBus& bus, Clock& clock, const std::set<std::uint8_t>& nodes,
+                                          canopen::ObjectAddress address) {
+  std::map<std::uint8_t, canopen::SdoClient> clients;
+  const auto pass = [&](Duration time) {
+    clock.sleep_until(clock.now() + time);
+    const Time now = clock.now();
+    ReceivedFrame received;
+    while (bus.receive(received))
+      for (auto& [node, client] : clients) client.on_frame(received.frame, now);
+    for (auto& [node, client] : clients) client.poll(now);
+  };
+  for (const std::uint8_t node : nodes) {
+    static_cast<void>(clients.try_emplace(node, bus, node, kAnswerLimit).first->second.read(address, clock.now()));
+    pass(kStep);
+  }
+  for (const Time until = clock.now() + kAnswerLimit + kStep; clock.now() < until;) pass(kStep);
+  std::map<std::uint8_t, std::uint32_t> answers;
+  for (const auto& [node, client] : clients) {
+    if (client.status() != canopen::SdoStatus::kDone || client.value().size() > 4) continue;
+    std::array<std::uint8_t, 4> bytes{};
+    std::ranges::copy(client.value(), bytes.begin());
+    answers[node] = wire::little_endian<std::uint32_t>(bytes);
+  }
+  return answers;
 }
 
-/// Asks many nodes at once, each one object at a time.
-class NodeQuestions {
- public:
-  NodeQuestions(CanBus& bus, Clock& clock) : bus_(bus), clock_(clock) {
-    for (std::uint8_t node = 1; node <= kLastNode; ++node)
-      clients_[node] = std::make_unique<canopen::SdoClient>(bus, node, kAnswerLimit);
-  }
-  /// What each of `nodes` answers; none where it does not, or has no such object.
-  std::map<std::uint8_t, std::uint32_t> ask(const std::set<std::uint8_t>& nodes, canopen::ObjectAddress address) {
-    for (const std::uint8_t node : nodes) {
-      static_cast<void>(clients_[node]->read(address, clock_.now()));
-      pass(kStep);
-    }
-    for (const Time until = clock_.now() + kAnswerLimit + kStep; clock_.now() < until;) pass(kStep);
-    std::map<std::uint8_t, std::uint32_t> answers;
-    for (const std::uint8_t node : nodes) {
-      const canopen::SdoClient& client = *clients_[node];
-      if (client.status() != canopen::SdoStatus::kDone || client.value().size() > 4) continue;
-      std::array<std::uint8_t, 4> bytes{};
-      std::copy(client.value().begin(), client.value().end(), bytes.begin());
-      answers[node] = wire::little_endian<std::uint32_t>(bytes);
-    }
-    return answers;
-  }
-
- private:
-  void pass(Duration time) {
-    clock_.sleep_until(clock_.now() + time);
-    const Time now = clock_.now();
-    ReceivedFrame received;
-    while (bus_.receive(received))
-      for (auto& [node, client] : clients_) client->on_frame(received.frame, now);
-    for (auto& [node, client] : clients_) client->poll(now);
-  }
-
-  CanBus& bus_;
-  Clock& clock_;
-  std::map<std::uint8_t, std::unique_ptr<canopen::SdoClient>> clients_;
-};
-
 FoundDrives ask_canopen(CanBus& bus, Clock& clock) {
-  NodeQuestions questions(bus, clock);
   std::set<std::uint8_t> all, drives;
   for (std::uint8_t node = 1; node <= kLastNode; ++node) all.insert(node);
   FoundDrives found;
-  for (const auto& [node, type] : questions.ask(all, {0x1000, 0})) {
+  for (const auto& [node, type] : ask(bus, clock, all, {0x1000, 0})) {
     if ((type & 0xFFFFU) == kDriveProfile) {
       drives.insert(node);
     } else {
@@ -116,7 +95,7 @@ FoundDrives ask_canopen(CanBus& bus, Clock& clock) {
   std::map<std::uint8_t, std::string> identity;
   constexpr std::array kParts{"vendor", "product", "revision", "serial number"};
   for (std::uint8_t sub = 1; sub <= kParts.size(); ++sub) {
-    for (const auto& [node, value] : questions.ask(drives, {0x1018, sub})) {
+    for (const auto& [node, value] : ask(bus, clock, drives, {0x1018, sub})) {
       identity[node] +=
           formatted("%s%s %08Xh", identity[node].empty() ? "" : ", ", kParts[sub - 1U], static_cast<unsigned>(value));
     }
@@ -139,7 +118,9 @@ FoundDrives find_drives(CanBus& bus, Clock& clock) {
   const std::vector<FoundNode> vescs = named(voices.vescs, "status messages heard");
   if (odrives.empty() && vescs.empty()) return ask_canopen(bus, clock);
   if (vescs.empty()) return {DriveKind::kOdrive, odrives, ""};
-  return {DriveKind::kVesc, vescs, odrives.empty() ? "" : "ODrives are there as well: " + listed(odrives)};
+  std::vector<std::string> others;
+  for (const FoundNode& node : odrives) others.push_back(std::to_string(int{node.node}));
+  return {DriveKind::kVesc, vescs, others.empty() ? "" : "ODrives are there as well: " + joined(others)};
 }
 
 std::optional<std::uint32_t> find_pioneer(const std::string& device, Clock& clock) {

@@ -21,12 +21,30 @@ constexpr std::size_t kWidest = 158;  // of a line
 /// "  # meaning (unit); note", cut where the line would be too long.
 std::string comment(const SettingKey& row, const std::string& note, std::size_t taken) {
   const std::string unit = row.unit[0] == '\0' ? "" : std::string(" (") + row.unit + ")";
-  std::string text = std::string("  # ") + row.meaning + unit + (note.empty() ? "" : "; " + note);
-  if (taken + text.size() > kWidest) text = "  # " + note;
-  return text;
+  const std::string text = std::string("  # ") + row.meaning + unit + (note.empty() ? "" : "; " + note);
+  return taken + text.size() > kWidest ? "  # " + note : text;
 }
 
 constexpr std::array kSections{"drive", "panel", "realtime"};
+
+/// The name that a draft's section has in the file: "laser" for "laser 2".
+std::string section_in_file(const std::string& section) { return section.substr(0, section.find(' ')); }
+
+/// What stands under the row's key, checked by the row, as TOML writes it. The key is there. Throws StartupError.
+std::string literal_of(TomlTable& table, const SettingKey& row) {
+  switch (row.kind) {
+    case KeyKind::kNumber: return literal(table.number(row.key));
+    case KeyKind::kInteger: return std::to_string(table.integer(row.key));
+    case KeyKind::kBoolean: return table.boolean(row.key, false) ? "true" : "false";
+    case KeyKind::kChoice: return literal(row.choices[table.choice(row.key)]);
+    case KeyKind::kNumbers: {
+      std::string list;
+      for (const double number : table.numbers(row.key, 2, 3)) list += (list.empty() ? "" : ", ") + literal(number);
+      return "[" + list + "]";
+    }
+    default: return literal(table.text(row.key));
+  }
+}
 
 /// What a person typed, as TOML writes it; nothing where it is no value of this key.
 std::optional<std::string> understood(const SettingKey& row, const std::string& said) {
@@ -42,9 +60,7 @@ std::optional<std::string> understood(const SettingKey& row, const std::string& 
       return said == "false" || said == "no" ? std::optional<std::string>("false") : std::nullopt;
     case KeyKind::kNumbers: return said.starts_with("[") && said.ends_with("]") ? std::optional(said) : std::nullopt;
     case KeyKind::kChoice:
-      for (const std::string& choice : row.choices)
-        if (said == choice) return literal(said);
-      return std::nullopt;
+      return std::ranges::count(row.choices, said) > 0 ? std::optional(literal(said)) : std::nullopt;
     default: return said.empty() ? std::nullopt : std::optional(literal(said));
   }
 }
@@ -89,7 +105,7 @@ std::string RobotDraft::text() const {
   for (const std::string& line : remarks_) text += "# " + line + "\n";
   text += text_of("");
   for (std::size_t k = 0; has_section(laser_section(k)); ++k) text += text_of(laser_section(k));
-  for (const char* section : {"drive", "panel", "realtime"}) text += text_of(section);
+  for (const char* section : kSections) text += text_of(section);
   const auto places = tables_.find("places");
   return places == tables_.end() ? text : text + places->second;
 }
@@ -97,8 +113,6 @@ std::string RobotDraft::text() const {
 std::string laser_section(std::size_t scanner) {
   return scanner == 0 ? "laser" : "laser " + std::to_string(scanner + 1);
 }
-
-std::string section_in_file(const std::string& section) { return section.substr(0, section.find(' ')); }
 
 std::string literal(const std::string& text) {
   std::string quoted = "\"";
@@ -108,23 +122,9 @@ std::string literal(const std::string& text) {
 
 std::string literal(double number) { return formatted("%.10g", number); }
 
-std::string literal_of(TomlTable& table, const SettingKey& row) {
-  switch (row.kind) {
-    case KeyKind::kNumber: return literal(table.number(row.key));
-    case KeyKind::kInteger: return std::to_string(table.integer(row.key));
-    case KeyKind::kBoolean: return table.boolean(row.key, false) ? "true" : "false";
-    case KeyKind::kChoice: return literal(row.choices[table.choice(row.key)]);
-    case KeyKind::kNumbers: {
-      std::string list;
-      for (const double number : table.numbers(row.key, 2, 3)) list += (list.empty() ? "" : ", ") + literal(number);
-      return "[" + list + "]";
-    }
-    default: return literal(table.text(row.key));
-  }
-}
-
-const SettingKey& robot_key(const std::string& section, const std::string& key, const std::string& kind) {
-  return robot_file_keys().find(kind.empty() ? section : section + ":" + kind, key);
+const SettingKey& SetupAnswers::row_of(const std::string& section, const std::string& key) const {
+  const bool of_kind = section == "drive" && !kind_.empty();
+  return robot_file_keys().find(of_kind ? section + ":" + kind_ : section_in_file(section), key);
 }
 
 SetupAnswers::SetupAnswers(const std::optional<std::filesystem::path>& file, std::istream* from, std::ostream* to,
@@ -167,7 +167,7 @@ TomlTable* SetupAnswers::table(const std::string& section) {
 std::optional<std::string> SetupAnswers::given(const std::string& section, const std::string& key) {
   TomlTable* const found = table(section);
   if (found == nullptr || !found->has(key)) return std::nullopt;
-  return literal_of(*found, robot_key(section_in_file(section), key, section == "drive" ? kind_ : ""));
+  return literal_of(*found, row_of(section, key));
 }
 
 void SetupAnswers::take_kind(const std::string& kind) {
@@ -178,7 +178,7 @@ void SetupAnswers::take_kind(const std::string& kind) {
 void SetupAnswers::settle(RobotDraft& draft, const std::string& section, const std::string& key,
                           const std::string& suggestion, const std::string& note, const Check& check) {
   if (const auto known = given(section, key)) return draft.set(section, key, *known, "as answered");
-  const SettingKey& row = robot_key(section_in_file(section), key, section == "drive" ? kind_ : "");
+  const SettingKey& row = row_of(section, key);
   if (asks()) return draft.set(section, key, ask(row, section, suggestion, check), "as answered");
   if (suggestion.empty())
     throw StartupError("setup: " + title(row, section) + " cannot be seen: " + row.meaning,

@@ -57,19 +57,10 @@ class RobotDraft {
 
 /// The name of a scanner's section in a draft; `scanner` counts from 0: "laser", "laser 2" and so on.
 [[nodiscard]] std::string laser_section(std::size_t scanner);
-/// The name that such a section has in the file: "laser" for "laser 2".
-[[nodiscard]] std::string section_in_file(const std::string& section);
-
-/// What stands under the row's key, checked by the row, as TOML writes it. The key is there. Throws StartupError.
-[[nodiscard]] std::string literal_of(TomlTable& table, const SettingKey& row);
 
 /// A text as TOML writes it, and a number.
 [[nodiscard]] std::string literal(const std::string& text);
 [[nodiscard]] std::string literal(double number);
-
-/// The row of a robot file's key, whatever its kind; `kind` decides where several have it.
-[[nodiscard]] const SettingKey& robot_key(const std::string& section, const std::string& key,
-                                          const std::string& kind = "");
 
 // What a person knows of a robot: a file of answers with the keys of ROBOT.toml, and questions at a terminal.
 
@@ -119,6 +110,8 @@ class SetupAnswers {
 
  private:
   TomlTable* table(const std::string& section);
+  /// The row of a robot file's key, of the drives' kind where several have it.
+  [[nodiscard]] const SettingKey& row_of(const std::string& section, const std::string& key) const;
   void finish_section(RobotDraft& draft, const std::string& section, TomlTable& table);
   void take_tables(RobotDraft& draft, TomlTable& parent, const std::string& section, const std::string& key);
   void refuse_unknown(const std::string& section, const toml::value& raw);

@@ -64,6 +64,14 @@ std::string placed(const std::string& model, const std::filesystem::path& folder
                                                 : model;
 }
 
+/// Kinds that are tried on a serial line of which the person named no kind, by its adapter's name. Only to a scanner's
+/// adapter anything is sent: an LD19 speaks by itself. CP210x: adapters of LD06, LD19 and RPLIDAR.
+std::vector<ScannerKind> kinds_by_adapter(const std::string& line) {
+  if (line.find("Hokuyo") != std::string::npos) return {ScannerKind::kHokuyo};
+  if (line.find("CP210") != std::string::npos) return {ScannerKind::kLdrobot, ScannerKind::kRplidar};
+  return {ScannerKind::kLdrobot};
+}
+
 class Setup {
  public:
   Setup(Surroundings& machine, SetupAnswers& answers, Clock& clock)
@@ -137,7 +145,7 @@ class Setup {
     if (answers_.given("drive", "host")) return;
     const std::string named = answers_.given_text("drive", "device");
     for (const std::string& line : named.empty() ? machine_.serial_lines() : std::vector{named}) {
-      const auto has_line = [&line](const FoundScanner& scanner) { return place_of(scanner) == line; };
+      const auto has_line = [&line](const FoundScanner& scanner) { return name_of(scanner.wiring) == line; };
       const auto baud = std::ranges::any_of(scanners_, has_line) ? std::nullopt : find_pioneer(line, clock_);
       if (!baud) continue;
       answers_.say("Found: a Pioneer's board at " + line);
@@ -226,15 +234,16 @@ class Setup {
     };
     const auto port = static_cast<std::uint16_t>(number("port"));
     const std::uint32_t baud = number("baud");
-    if (!host.empty()) return {{host, "", port, 0, asked(kinds_on_network())}};
-    if (!device.empty()) return {{"", device, 0, baud, asked(kinds_on_line())}};
+    using enum ScannerKind;
+    if (!host.empty()) return {{{host, port, "", 0}, asked({kSickColaB, kSickColaA, kHokuyo})}};
+    if (!device.empty()) return {{{"", 0, device, baud}, asked({kLdrobot, kRplidar, kHokuyo, kLms200})}};
     std::vector<ScannerPlace> places;
     for (const std::string& each : machine_.hosts()) {
-      places.push_back({each, "", port, 0, {ScannerKind::kSickColaB, ScannerKind::kSickColaA}});
-      places.push_back({each, "", port, 0, {ScannerKind::kHokuyo}});
+      places.push_back({{each, port, "", 0}, {kSickColaB, kSickColaA}});
+      places.push_back({{each, port, "", 0}, {kHokuyo}});
     }
     for (const std::string& line : machine_.serial_lines())
-      places.push_back({"", line, 0, baud, asked(kinds_by_adapter(line))});
+      places.push_back({{"", 0, line, baud}, asked(kinds_by_adapter(line))});
     return places;
   }
   /// Drafts every scanner of the answers, at least one. At a terminal it asks about each further scanner that was
@@ -247,7 +256,7 @@ class Setup {
   void draft_scanner(const std::string& section) {
     const bool is_first = section == laser_section(0);
     std::vector<FoundScanner> scanners = is_first ? scanners_ : find_scanners(places(section), clock_);
-    std::erase_if(scanners, [this](const FoundScanner& each) { return taken_.contains(place_of(each)); });
+    std::erase_if(scanners, [this](const FoundScanner& each) { return taken_.contains(name_of(each.wiring)); });
     others_answer_ = scanners.size() > 1;
     std::vector<std::string> words;
     for (const FoundScanner& scanner : scanners) words.push_back(describe(scanner));
@@ -275,11 +284,11 @@ class Setup {
     if (!is_placed && make.port != 0 && (make.baud == 0 || answers_.agrees("Is the scanner on the network?"))) {
       answers_.settle(draft_, section, "host");
       answers_.settle(draft_, section, "port", std::to_string(make.port));
-      place.host = text_in(draft_.value(section, "host"));
-      place.port = static_cast<std::uint16_t>(std::stoul(draft_.value(section, "port")));
+      place.at.host = text_in(draft_.value(section, "host"));
+      place.at.port = static_cast<std::uint16_t>(std::stoul(draft_.value(section, "port")));
     } else if (!is_placed) {
       answers_.settle(draft_, section, "device");
-      place.device = text_in(draft_.value(section, "device"));
+      place.at.device = text_in(draft_.value(section, "device"));
     }
     const std::vector<FoundScanner> found = is_placed ? std::vector<FoundScanner>{} : find_scanners({place}, clock_);
     if (!found.empty()) return answers_.say("Found: scanner " + describe(found[0])), enter_scanner(section, found[0]);
@@ -287,7 +296,7 @@ class Setup {
     draft_.remark("No scanner answered.");
   }
   void enter_scanner(const std::string& section, const FoundScanner& scanner) {
-    taken_.insert(place_of(scanner));
+    taken_.insert(name_of(scanner.wiring));
     const auto enter = [&](const char* key, const std::string& value) {
       if (!answers_.given(section, key)) draft_.set(section, key, value, kFound);
     };
@@ -324,7 +333,6 @@ class Setup {
   std::vector<BusFinding> drives_;
   std::string seen_;  ///< on interfaces without drives
   std::vector<FoundScanner> scanners_;
-  ByteWiring pioneer_;           ///< without a device: none
   std::set<std::string> taken_;  ///< places of the scanners in the draft
   bool others_answer_ = false;   ///< a scanner was found that the draft does not have
 };

@@ -14,14 +14,9 @@
 
 namespace jaywalk {
 
-// Which scanner answers, and what its scans are like, for `jaywalk setup`.
-
 /// Where a scanner may be, and what it may speak there, in the order in which that is tried.
 struct ScannerPlace {
-  std::string host;        ///< or
-  std::string device;      ///< a serial line
-  std::uint16_t port = 0;  ///< 0: the maker's
-  std::uint32_t baud = 0;  ///< 0: the maker's
+  ByteWiring at;  ///< port or baud 0: the maker's
   std::vector<ScannerKind> kinds;
 };
 
@@ -32,24 +27,13 @@ struct FoundScanner {
   double rate_hz = 0.0;
 };
 
-/// Everything a person may have meant by that line of a network or a cable.
-[[nodiscard]] std::vector<ScannerKind> kinds_on_network();
-[[nodiscard]] std::vector<ScannerKind> kinds_on_line();
-/// Kinds that are tried on a serial line of which the person named no kind, by its adapter's name. Only to a scanner's
-/// adapter anything is sent.
-[[nodiscard]] std::vector<ScannerKind> kinds_by_adapter(const std::string& line);
-
 /// Opens all places at once, makes each send by one kind's words, and listens: kind by kind, at most three seconds
 /// each. The scanners of which scans came, in the places' order. A name that cannot be resolved has none. Start-up
 /// only.
 [[nodiscard]] std::vector<FoundScanner> find_scanners(const std::vector<ScannerPlace>& places, Clock& clock);
 
-/// Where the scanner is connected: "192.168.0.1:2112", "/dev/ttyUSB0".
-[[nodiscard]] std::string place_of(const FoundScanner& scanner);
 /// "sick-cola-b at 192.168.0.1:2112: 811 beams over 270.00 degrees, 15 a second"
 [[nodiscard]] std::string describe(const FoundScanner& scanner);
-
-// Which drives are on a bus, for `jaywalk setup`.
 
 struct FoundNode {
   std::uint8_t node = 0;
@@ -71,9 +55,7 @@ struct FoundDrives {
 /// only.
 [[nodiscard]] std::optional<std::uint32_t> find_pioneer(const std::string& device, Clock& clock);
 
-// What a machine has that a robot's devices may hang on, as `jaywalk setup` sees it.
-
-/// Start-up only. Thread: one.
+/// What a machine has that a robot's devices may hang on. Start-up only. Thread: one.
 class Surroundings {
  public:
   virtual ~Surroundings() = default;

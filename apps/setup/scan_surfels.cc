@@ -21,6 +21,18 @@ double least_across(const Eigen::Matrix3d& points, double used) {
   return Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(normals, Eigen::EigenvaluesOnly).eigenvalues().x() / used;
 }
 
+std::vector<Surfel> surfels_of(const LaserScan& scan) {
+  return surfels_of(beam_ends(scan), std::fabs(static_cast<double>(scan.angle_step_rad)));
+}
+
+/// The one nearest to `p`; there is one.
+const Surfel& nearest(const std::vector<Surfel>& surfels, Vec2 p) {
+  return *std::ranges::min_element(surfels, {}, [p](const Surfel& each) { return dot(each.at - p, each.at - p); });
+}
+
+/// Whether normals are those of what may be one surface, looked at from either side.
+bool are_alike(Vec2 normal, Vec2 other) { return std::fabs(dot(normal, other)) > kAlike; }
+
 constexpr double kWidest_rad = 1.2, kStep_rad = 0.1;
 /// A nudge is short, whatever the mount: it weighs as two points at rest, and half a metre is a wrong match.
 constexpr double kRestPoints = 2.0, kMost_m = 0.5;
@@ -48,18 +60,6 @@ std::vector<Surfel> surfels_of(const BeamEnds& ends, double step_rad) {
   }
   return surfels;
 }
-
-std::vector<Surfel> surfels_of(const LaserScan& scan) {
-  return surfels_of(beam_ends(scan), std::fabs(static_cast<double>(scan.angle_step_rad)));
-}
-
-const Surfel& nearest(const std::vector<Surfel>& surfels, Vec2 p) {
-  return *std::min_element(surfels.begin(), surfels.end(), [p](const Surfel& a, const Surfel& b) {
-    return dot(a.at - p, a.at - p) < dot(b.at - p, b.at - p);
-  });
-}
-
-bool are_alike(Vec2 normal, Vec2 other) { return std::fabs(dot(normal, other)) > kAlike; }
 
 SurfelFit fit_surfels(const Pose2& guess, const std::vector<Surfel>& before, const std::vector<Surfel>& after,
                       double rest_points) {
@@ -93,7 +93,7 @@ SurfelFit fit_surfels(const Pose2& guess, const std::vector<Surfel>& before, con
   return fit;
 }
 
-std::optional<ScanShift> match_scans(const LaserScan& before, const LaserScan& after) {
+std::optional<Pose2> match_scans(const LaserScan& before, const LaserScan& after) {
   const std::vector<Surfel> walls = surfels_of(before), points = surfels_of(after);
   if (walls.size() < kLeastSurfels || points.size() < kLeastSurfels) return std::nullopt;
   SurfelFit best;
@@ -102,7 +102,7 @@ std::optional<ScanShift> match_scans(const LaserScan& before, const LaserScan& a
     if (fit.left_m < best.left_m && norm(fit.before_from_after.position()) < kMost_m) best = fit;
   }
   if (best.left_m > kMostLeft_m || best.across < kLeastAcross) return std::nullopt;
-  return ScanShift{best.before_from_after, best.left_m};
+  return best.before_from_after;
 }
 
 double misfit_m(const LaserScan& before, const LaserScan& after, const Pose2& before_from_after) {

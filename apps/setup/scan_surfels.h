@@ -29,12 +29,6 @@ using BeamEnds = std::vector<std::optional<Vec2>>;
 [[nodiscard]] BeamEnds beam_ends(const LaserScan& scan);
 /// 400 at most; `step_rad` is from a beam to the next.
 [[nodiscard]] std::vector<Surfel> surfels_of(const BeamEnds& ends, double step_rad);
-[[nodiscard]] std::vector<Surfel> surfels_of(const LaserScan& scan);
-
-/// The one nearest to `p`; there is one.
-[[nodiscard]] const Surfel& nearest(const std::vector<Surfel>& surfels, Vec2 p);
-/// Whether normals are those of what may be one surface, looked at from either side.
-[[nodiscard]] bool are_alike(Vec2 normal, Vec2 other);
 
 /// How far off what does not lie on anything counts (m).
 inline constexpr double kFarOff_m = 0.2;
@@ -54,16 +48,10 @@ struct SurfelFit {
 [[nodiscard]] SurfelFit fit_surfels(const Pose2& guess, const std::vector<Surfel>& before,
                                     const std::vector<Surfel>& after, double rest_points);
 
-/// How a laser moved between two scans of the same room.
-struct ScanShift {
-  Pose2 before_from_after;
-  double left_over_m = 0.0;  ///< mean distance of a point to the other scan's surfaces, each at most 0.2 m
-};
-
-/// Matches two scans without any idea of the motion: point to line (Chen and Medioni 1992) from turns of up to 70
+/// How a laser moved between two scans of the same room, before_from_after: fit_surfels() from turns of up to 70
 /// degrees either way, the best of them. The turn is exact; a way that few points tell is taken to be short. Nothing
-/// where they have too little in common. Start-up only: takes about a second and allocates.
-[[nodiscard]] std::optional<ScanShift> match_scans(const LaserScan& before, const LaserScan& after);
+/// where they have too little in common. Takes about a second.
+[[nodiscard]] std::optional<Pose2> match_scans(const LaserScan& before, const LaserScan& after);
 
 /// How badly the scans fit one another at that pose: the mean distance across the surfaces, each at most 0.1 m.
 [[nodiscard]] double misfit_m(const LaserScan& before, const LaserScan& after, const Pose2& before_from_after);

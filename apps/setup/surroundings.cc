@@ -35,7 +35,7 @@ class LockedBus final : public CanBus {
  public:
   LockedBus(const std::string& interface, Clock& clock) : lock_(interface), bus_(open_can(interface, kAll), clock) {}
 
-  [[nodiscard]] SendResult send(const CanFrame& frame) noexcept override { return bus_.send(frame); }
+  [[nodiscard]] bool send(const CanFrame& frame) noexcept override { return bus_.send(frame); }
   [[nodiscard]] bool receive(ReceivedFrame& received) noexcept override { return bus_.receive(received); }
   [[nodiscard]] CanHealth health() const noexcept override { return bus_.health(); }
 
@@ -89,11 +89,10 @@ class Trial {
  public:
   Trial(const ScannerPlace& place, ScannerKind kind, Clock& clock) {
     const ScannerMake& make = scanner_make(kind);
+    static_cast<ByteWiring&>(wiring_) = place.at;
     wiring_.kind = kind;
-    wiring_.host = place.host;
-    wiring_.device = place.device;
-    wiring_.port = place.port == 0 ? make.port : place.port;
-    wiring_.baud = place.baud == 0 ? make.baud : place.baud;
+    if (wiring_.port == 0) wiring_.port = make.port;
+    if (wiring_.baud == 0) wiring_.baud = make.baud;
     connection_ = make_scanner({.kind = kind,
                                 .host = wiring_.host,
                                 .port = wiring_.port,
@@ -159,21 +158,6 @@ void listen(std::vector<std::unique_ptr<Trial>>& trials, Clock& clock) {
 
 std::unique_ptr<Surroundings> this_machine(Clock& clock) { return std::make_unique<ThisMachine>(clock); }
 
-std::vector<ScannerKind> kinds_on_network() {
-  return {ScannerKind::kSickColaB, ScannerKind::kSickColaA, ScannerKind::kHokuyo};
-}
-
-std::vector<ScannerKind> kinds_on_line() {
-  return {ScannerKind::kLdrobot, ScannerKind::kRplidar, ScannerKind::kHokuyo, ScannerKind::kLms200};
-}
-
-// An LD19 speaks by itself: listening does no harm on any line. CP210x: adapters of LD06, LD19 and RPLIDAR.
-std::vector<ScannerKind> kinds_by_adapter(const std::string& line) {
-  if (line.find("Hokuyo") != std::string::npos) return {ScannerKind::kHokuyo};
-  if (line.find("CP210") != std::string::npos) return {ScannerKind::kLdrobot, ScannerKind::kRplidar};
-  return {ScannerKind::kLdrobot};
-}
-
 std::vector<FoundScanner> find_scanners(const std::vector<ScannerPlace>& places, Clock& clock) {
   std::vector<std::optional<FoundScanner>> by_place(places.size());
   std::size_t rounds = 0;
@@ -192,15 +176,10 @@ std::vector<FoundScanner> find_scanners(const std::vector<ScannerPlace>& places,
   return found;
 }
 
-std::string place_of(const FoundScanner& scanner) {
-  const LaserWiring& wiring = scanner.wiring;
-  return wiring.host.empty() ? wiring.device : wiring.host + ":" + std::to_string(wiring.port);
-}
-
 std::string describe(const FoundScanner& scanner) {
   const std::string figures = formatted(": %u beams over %.2f degrees, %g a second",
                                         static_cast<unsigned>(scanner.beams), scanner.fov_deg, scanner.rate_hz);
-  return std::string(scanner_make(scanner.wiring.kind).name) + " at " + place_of(scanner) + figures;
+  return std::string(scanner_make(scanner.wiring.kind).name) + " at " + name_of(scanner.wiring) + figures;
 }
 
 }  // namespace jaywalk

@@ -26,11 +26,11 @@ struct SideMotion {
   double forward_misfit_m = 0.0, backward_misfit_m = 0.0;  ///< of the scans, had the middle gone so with that turn
 };
 
-/// The way that a wheel rolled forward.
-double felt_m(const Nudge& nudge, const DriveModel& drive) {
+/// The way that the wheel on `side` rolled forward.
+double felt_m(const Nudge& nudge, std::size_t side, const DriveModel& drive) {
   const double left = nudge.after.left_rad - nudge.before.left_rad;
   const double right = nudge.after.right_rad - nudge.before.right_rad;
-  return drive.wheel_radius_m * (nudge.side == 0 ? left : right);
+  return drive.wheel_radius_m * (side == 0 ? left : right);
 }
 
 /// The middle goes half of the wheel's way, in the direction of half the turn.
@@ -45,12 +45,12 @@ SideMotion motion_of(const std::vector<Nudge>& nudges, std::size_t side, const R
   const Pose2& mount = model.lasers()[scanner].robot_from_laser;
   for (const Nudge& nudge : nudges) {
     if (nudge.side != side) continue;
-    const double felt = felt_m(nudge, model.drive);
+    const double felt = felt_m(nudge, side, model.drive);
     sum.felt_m += nudge.sign * felt;
-    const std::optional<ScanShift> shift = match_scans(nudge.scans_before[scanner], nudge.scans_after[scanner]);
+    const std::optional<Pose2> shift = match_scans(nudge.scans_before[scanner], nudge.scans_after[scanner]);
     sum.matched = sum.matched && shift.has_value();
     if (!shift) continue;
-    const double turn = shift->before_from_after.heading;
+    const double turn = shift->heading;
     sum.seen_rad += nudge.sign * (side == 0 ? -turn : turn);
     sum.forward_misfit_m += misfit_with(nudge, scanner, turn, 0.5 * felt, mount);
     sum.backward_misfit_m += misfit_with(nudge, scanner, turn, -0.5 * felt, mount);
@@ -64,10 +64,8 @@ CheckedPart check_feedback(const std::vector<Nudge>& nudges, std::size_t side, c
   for (const Nudge& nudge : nudges) {
     if (nudge.side != side) continue;
     tried = true;
-    const double left = nudge.sign * (nudge.after.left_rad - nudge.before.left_rad) * drive.wheel_radius_m;
-    const double right = nudge.sign * (nudge.after.right_rad - nudge.before.right_rad) * drive.wheel_radius_m;
-    const double own = side == 0 ? left : right, other = side == 0 ? right : left;
-    if (std::fabs(other) > 0.02)
+    const double own = nudge.sign * felt_m(nudge, side, drive);
+    if (std::fabs(felt_m(nudge, 1 - side, drive)) > 0.02)
       return {part, false,
               "the other wheel's encoder turns as well; see that each drive has its own motor and encoder"};
     if (own < -0.005)
@@ -106,32 +104,37 @@ Signs signs_of(const SideMotion& seen, double track_m) {
   return signs;
 }
 
+constexpr Signs kWell{1, 1}, kMirrored{-1, 1}, kBackward{1, -1}, kReversed{-1, -1};
+
+struct Miswiring {
+  Signs left, right;
+  const char* said;
+};
+constexpr Miswiring kMiswirings[] = {
+    {kReversed, kWell, "the left wheel goes backward when it says forward; change [drive] left_reversed"},
+    {kWell, kReversed, "the right wheel goes backward when it says forward; change [drive] right_reversed"},
+    {kMirrored, kMirrored,
+     "left and right are exchanged: either the drives ([drive] left_node, right_node) or the scanner is upside "
+     "down or counts its beams the other way round"},
+    {kReversed, kReversed,
+     "forward is backward on both sides: either both wheels (change left_reversed and right_reversed), or the "
+     "scanner is upside down and looks backward"},
+    {kBackward, kBackward,
+     "it drives backward and turns as it should: either the scanner looks backward ([laser] mount), or the "
+     "drives are exchanged and both reversed"},
+};
+
 CheckedPart check_sides(const Signs& left, const Signs& right) {
   const std::string part = "wheels, scanner";
-  constexpr Signs kWell{1, 1}, kMirrored{-1, 1}, kBackward{1, -1}, kReversed{-1, -1};
   if (left == kWell && right == kWell) return {part, true, "each wheel is on its side and turns as it says"};
-  if (left == kReversed && right == kWell)
-    return {part, false, "the left wheel goes backward when it says forward; change [drive] left_reversed"};
-  if (left == kWell && right == kReversed)
-    return {part, false, "the right wheel goes backward when it says forward; change [drive] right_reversed"};
-  if (left == kMirrored && right == kMirrored)
-    return {part, false,
-            "left and right are exchanged: either the drives ([drive] left_node, right_node) or the scanner is upside "
-            "down or counts its beams the other way round"};
-  if (left == kReversed && right == kReversed)
-    return {part, false,
-            "forward is backward on both sides: either both wheels (change left_reversed and right_reversed), or the "
-            "scanner is upside down and looks backward"};
-  if (left == kBackward && right == kBackward)
-    return {part, false,
-            "it drives backward and turns as it should: either the scanner looks backward ([laser] mount), or the "
-            "drives are exchanged and both reversed"};
-  if (left.turn != 0 && right.turn != 0 && (left.way == 0 || right.way == 0))
+  for (const Miswiring& each : kMiswirings)
+    if (left == each.left && right == each.right) return {part, false, each.said};
+  if (left.turn == 0 || right.turn == 0)
+    return {part, false, "a wheel turns and the robot does not; see to grip, coupling and counts a turn"};
+  if (left.way == 0 || right.way == 0)
     return {
         part, false,
         "the scans show the turns, but not which way it went; go to where walls stand ahead and beside, then again"};
-  if (left.turn == 0 || right.turn == 0)
-    return {part, false, "a wheel turns and the robot does not; see to grip, coupling and counts a turn"};
   return {part, false,
           "what the scans show fits no one mistake; see to left_reversed, right_reversed, nodes and mount"};
 }
@@ -149,7 +152,7 @@ CheckedPart check_counts(const SideMotion& seen, std::size_t side, double track_
 double misfit_at(const std::vector<Nudge>& nudges, const DriveModel& drive, std::size_t scanner, const Pose2& mount) {
   double sum_m = 0.0;
   for (const Nudge& nudge : nudges) {
-    const double felt = felt_m(nudge, drive);
+    const double felt = felt_m(nudge, nudge.side, drive);
     const double turn = (nudge.side == 0 ? -felt : felt) / drive.track_width_m;
     sum_m += misfit_with(nudge, scanner, turn, 0.5 * felt, mount);
   }
@@ -175,14 +178,10 @@ MountStep best_step(int steps, const std::vector<Nudge>& nudges, const DriveMode
   return best.misfit_m > kClearly * at_file.misfit_m ? at_file : best;
 }
 
-struct MountCheck {
-  CheckedPart part;
-  bool is_off_axle = false;  ///< turned no better explains it
-};
-
 /// The scanner's heading, or its place ahead of the axle, that explains the scans better than the file's. The robot
-/// turns about the axle's middle: a frame elsewhere shows as a scanner elsewhere.
-MountCheck check_mount(const std::vector<Nudge>& nudges, const RobotModel& model, std::size_t scanner) {
+/// turns about the axle's middle: a frame elsewhere shows as a scanner elsewhere. Returns that it lies elsewhere, too.
+std::pair<CheckedPart, bool> check_mount(const std::vector<Nudge>& nudges, const RobotModel& model,
+                                         std::size_t scanner) {
   const Pose2& file = model.lasers()[scanner].robot_from_laser;
   const MountStep turned = best_step(9, nudges, model.drive, scanner, [&](int k) {  // to 45 degrees either way
     return Pose2{file.x, file.y, wrap_angle(file.heading + k * 5.0 * kPi / 180.0)};
@@ -214,11 +213,11 @@ std::vector<CheckedPart> judge_scans(const std::vector<Nudge>& nudges, const Rob
   std::vector<CheckedPart> checks{check_sides(left, right)};
   if (!checks.back().is_well) {
     const bool way_alone = left.turn == 1 && right.turn == 1 && left.way + right.way > -2;  // a wrong place hides it
-    const MountCheck mount = check_mount(nudges, model, scanner);
-    return way_alone && mount.is_off_axle ? std::vector<CheckedPart>{mount.part} : checks;
+    const auto [mount, is_off_axle] = check_mount(nudges, model, scanner);
+    return way_alone && is_off_axle ? std::vector{mount} : checks;
   }
   for (const std::size_t side : {0U, 1U}) checks.push_back(check_counts(seen[side], side, track_m));
-  checks.push_back(check_mount(nudges, model, scanner).part);
+  checks.push_back(check_mount(nudges, model, scanner).first);
   return checks;
 }
 

@@ -1,9 +1,9 @@
 #include "apps/view/foxglove_session.h"
 
 #include <algorithm>
-#include <cstring>
 #include <nlohmann/json.hpp>
 
+#include "apps/formats/ros_topics.h"
 #include "apps/formats/wire_reader.h"
 #include "apps/view/view_orders.h"
 
@@ -21,39 +21,34 @@ constexpr int kWarning = 1;
 
 std::string dumped(const Json& json) { return json.dump(-1, ' ', true, Json::error_handler_t::replace); }
 
-std::string status(const std::string& said, int level) {
+std::string status(const std::string& said, int level = kWarning) {
   return dumped({{"op", "status"}, {"level", level}, {"message", said}});
 }
 
-std::string warning(const std::string& said) { return status(said, kWarning); }
-
-/// A number's bytes: all our machines are little-endian.
-template <class Number>
-std::string little_endian(Number number) {
-  return {reinterpret_cast<const char*>(&number), sizeof number};
-}
+FoxgloveSession::Outcome warned(const std::string& said) { return {.order = "", .status = status(said)}; }
 
 std::string nanoseconds(Time stamp) {
-  return little_endian(std::max<std::int64_t>(stamp.time_since_epoch().count(), 0));
+  return exchange::raw(std::max<std::int64_t>(stamp.time_since_epoch().count(), 0));
 }
+
+/// Null where `json` has none of that name.
+Json member(const Json& json, const char* key) { return json.contains(key) ? json[key] : Json(); }
 
 /// A whole number that fits; nothing otherwise.
 std::optional<std::uint32_t> id_in(const Json& json, const char* key) {
-  const auto found = json.is_object() ? json.find(key) : json.end();
-  if (!json.is_object() || found == json.end() || !found->is_number_unsigned()) return std::nullopt;
-  const auto number = found->get<std::uint64_t>();
-  return number <= UINT32_MAX ? std::optional(static_cast<std::uint32_t>(number)) : std::nullopt;
+  const Json id = member(json, key);
+  return id.is_number_unsigned() && id <= UINT32_MAX ? std::optional(id.get<std::uint32_t>()) : std::nullopt;
 }
 
 std::string text_in(const Json& json, const char* key) {
-  const auto found = json.find(key);
-  return found != json.end() && found->is_string() ? found->get<std::string>() : "";
+  const Json text = member(json, key);
+  return text.is_string() ? text.get<std::string>() : "";
 }
 
 /// The list under `key`; an empty one where there is none.
 Json list_in(const Json& json, const char* key) {
-  const auto found = json.find(key);
-  return found != json.end() && found->is_array() ? *found : Json::array();
+  const Json list = member(json, key);
+  return list.is_array() ? list : Json::array();
 }
 
 /// Answers with the parameters that are named, or with all: what was to be set shows its old value again.
@@ -81,34 +76,26 @@ Json stop_service() {
           {"response", message_type("std_srvs/srv/Trigger_Response", "bool success\nstring message\n")}};
 }
 
-/// Number of four bytes from byte `at` on, which the payload must have; little-endian, as all our machines are.
+/// Number of four bytes from byte `at` on, which the payload must have.
 std::uint32_t u32_at(std::string_view payload, std::size_t at) {
-  std::uint32_t number = 0;
-  std::memcpy(&number, payload.data() + at, sizeof number);
-  return number;
+  return exchange::WireReader(payload.substr(at)).u32();
 }
 
 /// The only service, 0, is /stop, whatever its request holds.
 FoxgloveSession::Outcome called(std::string_view payload) {
-  if (payload.size() < kCallHead || u32_at(payload, 1) != 0) return {.order = "", .status = warning("no such service")};
+  if (payload.size() < kCallHead || u32_at(payload, 1) != 0) return warned("no such service");
   const std::size_t letters = u32_at(payload, kCallHead - 4);
   const std::string_view encoding = payload.substr(kCallHead).substr(0, letters);
-  if (encoding != "cdr" && encoding != "json") return {.order = "", .status = warning("a call is in cdr or json")};
+  if (encoding != "cdr" && encoding != "json") return warned("a call is in cdr or json");
   return {.order = R"({"stop":true})", .status = "", .call = std::string(payload.substr(0, kCallHead + letters))};
 }
 
 }  // namespace
 
-std::string foxglove_subprotocol(std::string_view offered) {
-  for (const char* spoken : {"foxglove.sdk.v1", "foxglove.websocket.v1"}) {
-    for (std::string_view rest = offered; !rest.empty();) {
-      std::string_view one = rest.substr(0, rest.find(','));
-      rest.remove_prefix(std::min(rest.size(), one.size() + 1));
-      while (one.starts_with(' ')) one.remove_prefix(1);
-      while (one.ends_with(' ')) one.remove_suffix(1);
-      if (one == spoken) return spoken;
-    }
-  }
+std::string foxglove_subprotocol(std::string offered) {
+  std::erase(offered, ' ');
+  for (const std::string spoken : {"foxglove.sdk.v1", "foxglove.websocket.v1"})
+    if (("," + offered + ",").find("," + spoken + ",") != std::string::npos) return spoken;
   return "";
 }
 
@@ -149,15 +136,15 @@ std::string foxglove_service_answer(std::string_view call, std::string_view said
 FoxgloveSession::Outcome FoxgloveSession::take_text(std::string_view text) {
   Outcome outcome;
   const Json json = Json::parse(text, nullptr, false);
-  if (!json.is_object()) return {.order = "", .status = warning("no JSON object")};
+  if (!json.is_object()) return warned("no JSON object");
   const std::string op = text_in(json, "op");
   if (op == "subscribe") {
     for (const Json& wish : list_in(json, "subscriptions")) {
       const auto id = id_in(wish, "id"), channel = id_in(wish, "channelId");
       if (!id || !channel || *channel >= channels_) {
-        outcome.status = warning("a subscription names no channel");
+        outcome.status = status("a subscription names no channel");
       } else if (!subscriptions_.emplace(*channel, *id).second) {
-        outcome.status = warning("a channel is subscribed to already");
+        outcome.status = status("a channel is subscribed to already");
       } else {
         outcome.subscribed.push_back(*channel);
       }
@@ -166,18 +153,16 @@ FoxgloveSession::Outcome FoxgloveSession::take_text(std::string_view text) {
     for (const Json& id : list_in(json, "subscriptionIds"))
       std::erase_if(subscriptions_, [&id](const auto& one) { return id.is_number_unsigned() && id == one.second; });
   } else if (op == "advertise") {
-    for (const Json& channel : list_in(json, "channels")) {
-      const auto id = id_in(channel, "id");
-      if (!id || published_.size() >= kMostNumbers) continue;
-      published_[*id] = {text_in(channel, "topic"), text_in(channel, "encoding")};
-    }
+    for (const Json& channel : list_in(json, "channels"))
+      if (const auto id = id_in(channel, "id"); id && published_.size() < kMostNumbers)
+        published_[*id] = {text_in(channel, "topic"), text_in(channel, "encoding")};
   } else if (op == "unadvertise") {
     for (const Json& id : list_in(json, "channelIds"))
       if (id.is_number_unsigned()) published_.erase(id.get<std::uint32_t>());
   } else if (op == "getParameters" || op == "setParameters") {
     outcome.status = values(parameters_, json);
   } else {
-    outcome.status = warning("not served: " + op.substr(0, kMostShown));
+    outcome.status = status("not served: " + op.substr(0, kMostShown));
   }
   return outcome;
 }
@@ -185,18 +170,15 @@ FoxgloveSession::Outcome FoxgloveSession::take_text(std::string_view text) {
 FoxgloveSession::Outcome FoxgloveSession::take_binary(std::string_view payload) {
   constexpr std::size_t kHead = 5;
   if (payload.starts_with(kServiceCall)) return called(payload);
-  if (payload.size() < kHead || payload[0] != kMessageData)
-    return {.order = "", .status = warning("no client message")};
+  if (payload.size() < kHead || payload[0] != kMessageData) return warned("no client message");
   const auto found = published_.find(u32_at(payload, 1));
-  if (found == published_.end())
-    return {.order = "", .status = warning("a message of a channel that is not advertised")};
+  if (found == published_.end()) return warned("a message of a channel that is not advertised");
   const auto& [topic, encoding] = found->second;
   const bool is_place = topic == "/initialpose";
   if (topic != "/goal_pose" && !is_place)
-    return {.order = "",
-            .status = warning(topic.substr(0, kMostShown) + " is not taken: publish /goal_pose or /initialpose")};
+    return warned(topic.substr(0, kMostShown) + " is not taken: publish /goal_pose or /initialpose");
   const auto pose = encoding == "json" ? goal_from_json(payload.substr(kHead)) : goal_from_cdr(payload.substr(kHead));
-  if (!pose) return {.order = "", .status = warning(topic + ": no pose in the plane of the frame map")};
+  if (!pose) return warned(topic + ": no pose in the plane of the frame map");
   return {.order = to_json(*pose, is_place ? "here" : "goal"), .status = ""};
 }
 
@@ -212,9 +194,28 @@ std::uint32_t FoxgloveSession::wanted() const {
 }
 
 std::string foxglove_head(std::uint32_t subscription, Time stamp) {
-  return kMessageData + little_endian(subscription) + nanoseconds(stamp);
+  return kMessageData + exchange::raw(subscription) + nanoseconds(stamp);
 }
 
 std::string foxglove_time(Time now) { return kTime + nanoseconds(now); }
+
+FoxgloveChannel joint_channel() {
+  // Another type that has a header and no other message in it brings the header's definition.
+  const std::string like = exchange::ros_schema("sensor_msgs/msg/CompressedImage");
+  return {"/joint_states", "sensor_msgs/msg/JointState",
+          "std_msgs/Header header\nstring[] name\nfloat64[] position\nfloat64[] velocity\nfloat64[] effort\n" +
+              like.substr(like.find("===="))};
+}
+
+std::string joint_states(const WheelState& wheels, Time now) {
+  constexpr std::int64_t kSecond = 1'000'000'000;
+  const std::int64_t ns = now.time_since_epoch().count();
+  exchange::CdrWriter out;
+  out.i32(ns / kSecond).u32(static_cast<std::size_t>(ns % kSecond)).text("");
+  out.u32(2).text("left_wheel_joint").text("right_wheel_joint");
+  out.u32(2).f64(wheels.left_rad).f64(wheels.right_rad);
+  out.u32(2).f64(wheels.left_radps).f64(wheels.right_radps).u32(0);
+  return out.message();
+}
 
 }  // namespace jaywalk::view

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "hal/types/time.h"
+#include "hal/types/wheels.h"
 
 namespace jaywalk::view {
 /// A topic that is served: messages in CDR.
@@ -26,7 +26,7 @@ struct FoxgloveParameter {
 };
 
 /// The first of a handshake's Sec-WebSocket-Protocol that is spoken here; empty where none is.
-[[nodiscard]] std::string foxglove_subprotocol(std::string_view offered);
+[[nodiscard]] std::string foxglove_subprotocol(std::string offered);
 
 /// The texts that a newcomer is sent: serverInfo, an advertisement of all channels, numbered from 0 in this order, and
 /// one of the service /stop (std_srvs/srv/Trigger).
@@ -74,5 +74,11 @@ class FoxgloveSession {
 [[nodiscard]] std::string foxglove_head(std::uint32_t subscription, Time stamp);
 /// The binary frame that tells the run's clock.
 [[nodiscard]] std::string foxglove_time(Time now);
+
+/// /joint_states, by which ROS 2's robot_state_publisher turns a model's wheels: left_wheel_joint and
+/// right_wheel_joint, as most models of two-wheeled bases name them.
+[[nodiscard]] FoxgloveChannel joint_channel();
+/// Its sensor_msgs/JointState in CDR: angles (rad) and speeds (rad/s); no efforts.
+[[nodiscard]] std::string joint_states(const WheelState& wheels, Time now);
 
 }  // namespace jaywalk::view

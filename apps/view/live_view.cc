@@ -3,13 +3,8 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 #include <thread>
-#include <vector>
-
-#include "apps/formats/ros_topics.h"
-#include "apps/view/joint_states.h"
 
 namespace jaywalk::view {
 
@@ -29,16 +24,6 @@ std::string FrameStore::read(const Piece& piece) const {
   std::string text(piece.size, '\0');
   const ssize_t got = ::pread(fileno(file_.get()), text.data(), text.size(), static_cast<off_t>(piece.at));
   return got == static_cast<ssize_t>(piece.size) ? text : "";
-}
-
-void FrameStore::add_field(std::string_view field) {
-  const std::scoped_lock lock(mutex_);
-  field_ = put(field);
-}
-
-void FrameStore::add_scene(std::string_view scene) {
-  const std::scoped_lock lock(mutex_);
-  scene_ = put(scene);
 }
 
 void FrameStore::add(const StripTick& strip, std::string_view head) {
@@ -114,16 +99,14 @@ std::span<const std::string> played_faults() { return sim::scenario_keys().find(
 LiveView::LiveView(const view::ViewAddress& where, const ControlSetup& setup, bool keeps_ticks, Obey obey)
     : obey_(std::move(obey)),
       keeps_ticks_(keeps_ticks),
-      model_(setup.model),
-      tick_s_(to_seconds(setup.tick())),
-      zone_(setup.model, setup.tick()),
+      setup_(setup),
       joints_(exchange::topics_of(setup.model).size()),
       server_(view::ViewServer::serve(
           where, {.on_order = [this](std::string_view text, const view::Reply& reply) { answer(text, reply); },
                   .channels = channels_of(setup.model),
                   .parameters = parameters_of(setup)})),
       topics_([this](std::size_t channel, Time stamp, std::string message) {
-        server_->push(channel, stamp, std::move(message));
+        server_->push(view::MessageKind::kTopic, std::move(message), stamp, channel);
       }) {
   std::printf("view: %s\n", server_->url().c_str());
   if (!server_->fingerprint().empty()) std::printf("its certificate, SHA-256: %s\n", server_->fingerprint().c_str());
@@ -144,11 +127,8 @@ void LiveView::answer(std::string_view text, const view::Reply& reply) {
     reply(store_.then(asked["tick"].get<std::uint64_t>()));
 }
 
-void LiveView::begin(view::HelloScene hello) {
-  hello.model = model_;
-  hello.keeps_ticks = keeps_ticks_;
-  hello.tick_s = tick_s_;
-  hello_ = to_json(hello);
+void LiveView::begin(const view::HelloScene& hello) {
+  hello_ = to_json(hello, setup_, keeps_ticks_);
   server_->push(view::MessageKind::kHello, hello_);
 }
 
@@ -156,7 +136,7 @@ void LiveView::follow(const LoopRunner& runner, const std::string& ended, bool a
   take(snapshot_, runner.last(), runner.loop());
   show_field_of(runner);
   show(snapshot_, ended, at_once);
-  if (const Time now = runner.last().now; is_map_due(now)) show_map(runner.loop().tracker().still(), now);
+  show_map(runner.loop().tracker().still(), runner.last().now);
 }
 
 void LiveView::show_field_of(const LoopRunner& runner) {
@@ -179,22 +159,21 @@ void LiveView::show(const view::ViewSnapshot& snapshot, const std::string& ended
   const TickRecord& t = snapshot.record;
   if (path_.stamp != snapshot.plan.stamp) keep_path(snapshot.plan, path_);
   const std::uint32_t wanted = server_->wanted();
-  if (wanted != 0) server_->push_time(t.now);
-  topics_.add(t, {snapshot.tracks.begin(), snapshot.tracks.size()}, path_, model_, wanted);
+  if (wanted != 0) server_->push(view::MessageKind::kTime, "", t.now);
+  topics_.add(t, {snapshot.tracks.begin(), snapshot.tracks.size()}, path_, setup_.model, wanted);
   if ((wanted >> joints_ & 1U) != 0 && t.wheels.sequence != 0)
-    server_->push(joints_, t.now, view::joint_states(t.wheels, t.now));
+    server_->push(view::MessageKind::kTopic, view::joint_states(t.wheels, t.now), t.now, joints_);
   const auto now = std::chrono::steady_clock::now();
   const bool is_due = server_->has_pages() && (at_once || !ended.empty() || now - pushed_ >= kPushEvery);
   if (!keeps_ticks_ && !is_due) return static_cast<void>(++tick_);
   const bool changed = t.scan_count() != scans_shown_ || snapshot.plan.sequence != plan_shown_ || scene_.empty();
   if (changed) {
-    scene_ = to_json(snapshot, model_.lasers());
+    scene_ = to_json(snapshot, setup_.model.lasers());
     scans_shown_ = t.scan_count();
     plan_shown_ = snapshot.plan.sequence;
     if (keeps_ticks_) store_.add_scene(scene_);
   }
-  const std::string head = view::frame_head(
-      {.tick = tick_++, .record = t, .zone = zone_.at(t), .speed_mps = snapshot.twist.v_mps, .ended = ended});
+  const std::string head = view::frame_head(snapshot, tick_++, setup_, ended);
   if (keeps_ticks_) {
     store_.add({.t_s = to_seconds(t.now),
                 .wanted_mps = t.wanted.v_mps,
@@ -226,7 +205,6 @@ void LiveView::stay(bool until_told, const Interruption& interruption) {
 SimView::SimView(const view::ViewAddress& where, const ControlSetup& setup, OperatorPanel& panel)
     : panel_(panel),
       takes_goals_(!setup.keeps_speed()),
-      tick_(setup.tick()),
       live_(where, setup, true,
             [this](const view::ViewOrder& order, const view::Reply& reply) { take(order, reply); }) {}
 
@@ -241,9 +219,8 @@ void SimView::take(const view::ViewOrder& order, const view::Reply& reply) {
 
 void SimView::begin(const std::string& title, std::span<const sim::WallSegment> walls, sim::Simulation* played) {
   played_ = played;
-  view::HelloScene hello{.title = title, .walls = walls, .takes_goals = takes_goals_};
-  if (played != nullptr) hello.faults = played_faults();
-  live_.begin(std::move(hello));
+  const std::span<const std::string> faults = played == nullptr ? std::span<const std::string>() : played_faults();
+  live_.begin({.title = title, .walls = walls, .takes_goals = takes_goals_, .faults = faults});
 }
 
 void SimView::play(const view::ViewOrder& order) {
@@ -258,14 +235,14 @@ void SimView::play(const view::ViewOrder& order) {
 void SimView::follow(const LoopRunner& runner, const std::string& ended, const Interruption& interruption) {
   live_.follow(runner, ended, paused_);
   stands_ = runner.last().verdict.permitted == Twist2{};
-  keep_pace();
+  keep_pace(runner.setup().tick());
   if (ended.empty()) obey_while_paused(interruption);
 }
 
 /// A run that was held up does not hurry to make up for it.
-void SimView::keep_pace() {
+void SimView::keep_pace(Duration tick) {
   const auto now = std::chrono::steady_clock::now();
-  const Duration wait = duration_from_seconds(to_seconds(tick_) / pace_);
+  const Duration wait = duration_from_seconds(to_seconds(tick) / pace_);
   due_ = std::max(due_ + std::chrono::duration_cast<std::chrono::steady_clock::duration>(wait), now);
   std::this_thread::sleep_until(due_);
 }

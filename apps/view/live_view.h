@@ -1,6 +1,5 @@
 #pragma once
 // Live page of a run: fed with its ticks, and of a simulation, at the pace of the wall clock.
-// Every tick of a run, kept in a file without a name so that the live page can go back to any.
 #include <atomic>
 #include <chrono>
 #include <cstdint>
@@ -31,23 +30,28 @@ struct StripTick {
   Reason reasons = Reason::kNone;
 };
 
-/// Keeps frames in order, ticks from 0. Where the disk or kMostBytes is full, later ticks are not kept. Any thread; not
-/// for a thread with a deadline.
+/// Keeps frames in a file without a name, ticks from 0. Where the disk or kMostBytes is full, later ticks are not kept.
+/// Any thread; not for a thread with a deadline.
 class FrameStore {
  public:
   static constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 30U;
 
   /// The potential that frames from now on were made with; JSON.
-  void add_field(std::string_view field);
+  void add_field(std::string_view field) {
+    const std::scoped_lock lock(mutex_);
+    field_ = put(field);
+  }
   /// What a scan or a plan changed, from now on; JSON.
-  void add_scene(std::string_view scene);
-  /// The next tick; `head`: frame_head() of view_scene.h.
+  void add_scene(std::string_view scene) {
+    const std::scoped_lock lock(mutex_);
+    scene_ = put(scene);
+  }
+  /// The next tick; `head`: its frame_head().
   void add(const StripTick& strip, std::string_view head);
 
   /// {"kind":"then","frame":...,"field":...}; empty where that tick is not kept. `field` null where there is none.
   [[nodiscard]] std::string then(std::uint64_t tick) const;
-  /// {"kind":"past","step":N,"ticks":[[t, wanted, permitted, speed, reasons, x, y], ...]}: every Nth tick kept, `most`
-  /// at most.
+  /// {"kind":"past","step":N,"ticks":[[t, wanted, permitted, speed, reasons, x, y], ...]}: every Nth, at most `most`.
   [[nodiscard]] std::string past(std::size_t most) const;
 
  private:
@@ -62,11 +66,8 @@ class FrameStore {
   [[nodiscard]] Piece put(std::string_view text);
   [[nodiscard]] std::string read(const Piece& piece) const;
 
-  struct Close {
-    void operator()(std::FILE* file) const { std::fclose(file); }
-  };
   mutable std::mutex mutex_;
-  std::unique_ptr<std::FILE, Close> file_{std::tmpfile()};
+  std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_{std::tmpfile(), &std::fclose};
   std::uint64_t size_ = 0;
   bool full_ = file_ == nullptr;
   Piece scene_, field_;
@@ -88,19 +89,21 @@ class LiveView {
   /// TLS its certificate's fingerprint too. Throws StartupError where the address cannot be served.
   LiveView(const view::ViewAddress& where, const ControlSetup& setup, bool keeps_ticks, Obey obey);
 
-  /// Before the first tick. `model`, `keeps_ticks` and `tick_s` of `hello` are set here.
-  void begin(view::HelloScene hello);
+  /// Before the first tick.
+  void begin(const view::HelloScene& hello);
   /// After each tick of a runner that this thread drives. `at_once`: whatever was shown just now.
   void follow(const LoopRunner& runner, const std::string& ended, bool at_once = false);
 
-  /// From time to time while no tick comes because a person wants none: pages can tell that from a loop that hangs.
+  /// Tells pages that a person wants no tick, from time to time: they tell that from a loop that hangs.
   void tell_paused() { server_->push(view::MessageKind::kFrame, R"({"kind":"paused"})"); }
 
   /// The same in pieces, for a loop with a thread of its own.
   void show(const view::ViewSnapshot& snapshot, const std::string& ended, bool at_once = false);
   void show(const view::FieldPicture& field);
-  void show_map(const EvidenceMap& map, Time now) { topics_.add_map(map, now); }
-  [[nodiscard]] bool is_map_due(Time now) const { return topics_.is_map_due(now, server_->wanted()); }
+  /// Shows nothing before it is due again.
+  void show_map(const EvidenceMap& map, Time now) {
+    if (topics_.is_map_due(now, server_->wanted())) topics_.add_map(map, now);
+  }
 
   [[nodiscard]] std::string url() const { return server_->url(); }
   [[nodiscard]] int viewers() const noexcept { return server_->viewers(); }
@@ -119,9 +122,7 @@ class LiveView {
   Obey obey_;
   bool keeps_ticks_;
   view::FrameStore store_;
-  RobotModel model_;
-  double tick_s_;
-  view::ShownStopZone zone_;
+  ControlSetup setup_;
   view::ViewSnapshot snapshot_;
   std::string hello_, scene_;
   std::uint32_t scans_shown_ = 0, plan_shown_ = 0;  ///< TickRecord::scan_count(); the plan's sequence
@@ -138,7 +139,7 @@ class LiveView {
 /// between ticks; without an order from the page the run is the same, bit for bit. Thread: the simulation's.
 class SimView {
  public:
-  /// Prints the line `view: http://...`. Throws StartupError where the address cannot be served.
+  /// Prints and throws as LiveView does.
   SimView(const view::ViewAddress& where, const ControlSetup& setup, OperatorPanel& panel);
 
   [[nodiscard]] OperatorPanel& panel() noexcept { return panel_; }
@@ -152,16 +153,15 @@ class SimView {
   void stay(const Interruption& interruption) { live_.stay(false, interruption); }
 
  private:
-  /// Thread: the page's.
+  /// Thread: the server's.
   void take(const view::ViewOrder& order, const view::Reply& reply);
   void play(const view::ViewOrder& order);
-  void keep_pace();
+  void keep_pace(Duration tick);
   void obey_while_paused(const Interruption& interruption);
 
   view::ViewOrders orders_;
   view::SteeredPanel panel_;
   bool takes_goals_;
-  Duration tick_;
   std::chrono::steady_clock::time_point due_ = std::chrono::steady_clock::now();
   bool paused_ = false;
   sim::Simulation* played_ = nullptr;

@@ -23,7 +23,7 @@ constexpr const char* kStop = "stop now";
 RunView::RunView(const view::ViewAddress& where, const std::filesystem::path& control_socket, const std::string& title,
                  const ControlSetup& setup, const EvidenceMap& map)
     : control_socket_(control_socket),
-      planner_tap_(map),
+      tap_(map),
       live_(with_token(where), setup, false,
             [this](const view::ViewOrder& order, const view::Reply& reply) { obey(order, reply); }),
       address_file_(control_socket, live_.url()) {
@@ -33,14 +33,13 @@ RunView::RunView(const view::ViewAddress& where, const std::filesystem::path& co
 }
 
 void RunView::follow() {
-  const bool wanted = live_.viewers() > 0;
-  snapshots_.want(wanted);
-  planner_tap_.want(wanted);
-  for (auto& ring = snapshots_.snapshots(); ring.front() != nullptr; ring.pop()) live_.show(last_ = *ring.front(), "");
-  if (!planner_tap_.has_new()) return;
-  live_.show(planner_tap_.field());
-  if (live_.is_map_due(planner_tap_.stamp())) live_.show_map(planner_tap_.map(), planner_tap_.stamp());
-  planner_tap_.taken();
+  tap_.want(live_.viewers() > 0);
+  for (auto& ring = tap_.snapshots(); ring.front() != nullptr; ring.pop()) live_.show(last_ = *ring.front(), "");
+  const auto* const offered = tap_.offered();
+  if (offered == nullptr) return;
+  live_.show(offered->field);
+  live_.show_map(offered->map, offered->stamp);
+  tap_.taken();
 }
 
 std::filesystem::path RunView::finish(const RunEnd& end, const ControlLoop& loop, const Planner& planner) {

@@ -21,10 +21,10 @@ class RunView final : public RunObserver {
           const ControlSetup& setup, const EvidenceMap& map);
 
   void after_tick(const TickRecord& record, const ControlLoop& loop) noexcept override {
-    snapshots_.offer(record, loop);
+    tap_.after_tick(record, loop);
   }
   void after_plan(const Planner& planner, const EvidenceMap& map, Time stamp) noexcept override {
-    planner_tap_.offer(planner, map, stamp);
+    tap_.after_plan(planner, map, stamp);
   }
   /// Shows what came since.
   void follow() override;
@@ -38,9 +38,8 @@ class RunView final : public RunObserver {
   void go(const std::string& line, const view::Reply& reply);
 
   std::string control_socket_;
-  view::SnapshotTap snapshots_;
+  view::RunTap tap_;
   view::ViewSnapshot last_;  ///< shown
-  view::PlannerTap planner_tap_;
   std::atomic<unsigned> stops_asked_{0}, stops_done_{0}, goals_waiting_{0};
   // The socket may take seconds to answer. They outlive the server, which calls; the goals outlive the stops, which
   // pass them on.

@@ -1,6 +1,7 @@
 #include "apps/view/secret.h"
 
 #include <fcntl.h>
+#include <openssl/crypto.h>
 #include <openssl/pem.h>
 #include <openssl/rand.h>
 #include <openssl/x509.h>
@@ -14,6 +15,7 @@
 #include <fstream>
 
 #include "drivers/wire/file_descriptor.h"
+#include "hal/shown_text.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk::view {
@@ -83,25 +85,18 @@ std::shared_ptr<ssl::context> tls_context(const std::filesystem::path& given) {
 
 std::string fingerprint_of(const X509* certificate) {
   std::array<unsigned char, EVP_MAX_MD_SIZE> bytes{};
+  std::array<char, 3 * EVP_MAX_MD_SIZE> text{};
   unsigned count = 0;
   ::X509_digest(certificate, ::EVP_sha256(), bytes.data(), &count);
-  std::string text;
-  for (unsigned k = 0; k < count; ++k) {
-    text += k == 0 ? "" : ":";
-    text += "0123456789ABCDEF"[bytes[k] >> 4U];
-    text += "0123456789ABCDEF"[bytes[k] & 15U];
-  }
-  return text;
+  ::OPENSSL_buf2hexstr_ex(text.data(), text.size(), nullptr, bytes.data(), count, ':');
+  return text.data();
 }
 
 std::string made_token() {
-  std::array<unsigned char, 16> bytes{};
-  if (::RAND_bytes(bytes.data(), bytes.size()) != 1)
+  std::array<std::uint64_t, 2> bits{};
+  if (::RAND_bytes(reinterpret_cast<unsigned char*>(bits.data()), sizeof bits) != 1)
     throw StartupError("no random numbers for the page's token", "see that the system's random numbers work");
-  std::string token;
-  for (const unsigned char byte : bytes)
-    token += "0123456789abcdef"[byte >> 4U], token += "0123456789abcdef"[byte & 15U];
-  return token;
+  return formatted("%016lx%016lx", bits[0], bits[1]);
 }
 
 AddressFile::AddressFile(const std::filesystem::path& control_socket, const std::string& url)

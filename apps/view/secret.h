@@ -13,8 +13,7 @@
 namespace jaywalk::view {
 
 /// TLS 1.2 or later with the certificate and key of a PEM file. `given` empty: jaywalk/view.pem in the user's state
-/// folder
-/// ($XDG_STATE_HOME, ~/.local/state), self-signed, made at the first start, mode 0600. Throws StartupError where
+/// folder ($XDG_STATE_HOME, ~/.local/state), self-signed, made at the first start, mode 0600. Throws StartupError where
 /// that cannot be read or made.
 [[nodiscard]] std::shared_ptr<boost::asio::ssl::context> tls_context(const std::filesystem::path& given);
 

@@ -3,11 +3,8 @@
 #include <openssl/crypto.h>
 
 #include <algorithm>
-#include <array>
 #include <boost/beast/core/detect_ssl.hpp>
 #include <map>
-
-#include "apps/view/foxglove_session.h"
 
 namespace jaywalk::view {
 namespace {
@@ -82,8 +79,7 @@ std::optional<std::size_t> gives_way(std::span<const Placed> placed, Stage stage
   const auto worst = std::min_element(placed.begin(), placed.end(), is_worse);
   if (worst == placed.end()) return std::nullopt;
   const bool must = stage != Stage::kLooks || stuck(*worst) >= kStuck || held[worst->address] >= held[address] + 2;
-  if (!must) return std::nullopt;
-  return static_cast<std::size_t>(worst - placed.begin());
+  return must ? std::optional(static_cast<std::size_t>(worst - placed.begin())) : std::nullopt;
 }
 
 namespace {
@@ -103,8 +99,8 @@ std::string text_of(beast::string_view text) { return {text.data(), text.size()}
 
 }  // namespace
 
-ViewClient::ViewClient(asio::ip::tcp::socket socket, ViewHouse& house)
-    : socket_(std::move(socket)), house_(house), received_(2 * kMostRequest), allowance_(kMostAtOnce) {
+ViewClient::ViewClient(asio::ip::tcp::socket socket, BeastServer& server)
+    : socket_(std::move(socket)), server_(server), received_(2 * kMostRequest), allowance_(kMostAtOnce) {
   Error error;
   auto& tcp = socket_.next_layer().next_layer();
   tcp.set_option(asio::ip::tcp::no_delay(true), error);
@@ -122,7 +118,7 @@ auto ViewClient::then(Next next) {
 
 template <class Take>
 Reply ViewClient::reply_to(Take take) {
-  return [io = house_.io, self = weak_from_this(), take](std::string text) {
+  return [io = server_.io, self = weak_from_this(), take](std::string text) {
     asio::post(*io, [self, take, text = std::move(text)] {
       if (const auto client = self.lock(); client && client->stage() != Stage::kGone) take(*client, text);
     });
@@ -130,12 +126,12 @@ Reply ViewClient::reply_to(Take take) {
 }
 
 void ViewClient::start() {
-  if (!house_.tls) return read_request();
+  if (!server_.tls) return read_request();
   beast::async_detect_ssl(socket_.next_layer(), received_, then([](ViewClient& client, bool is_tls) {
                             if (!is_tls) return client.read_request();
-                            static_cast<void>(client.house_.enter(client, Stage::kEncrypts));
+                            static_cast<void>(client.server_.enter(client, Stage::kEncrypts));
                             client.socket_.next_layer().begin_tls(
-                                DoorStream::Role::server, *client.house_.tls, client.received_.data(),
+                                DoorStream::Role::server, *client.server_.tls, client.received_.data(),
                                 client.then([](ViewClient& encrypted, std::size_t used) {
                                   encrypted.received_.consume(used);
                                   encrypted.read_request();
@@ -163,16 +159,16 @@ void ViewClient::answer_request() {
                                      .is_upgrade = websocket::is_upgrade(asked),
                                      .is_local = local_,
                                      .is_encrypted = socket_.next_layer().is_encrypted()},
-                                    house_.rules);
+                                    server_.rules);
   if (stage_ == Stage::kGone && verdict.service != Service::kStop) return;  // gave way before it was heard
   if (verdict.service == Service::kSocket) return upgrade(verdict.subprotocol);
-  static_cast<void>(house_.enter(*this, Stage::kIsAnswered));
+  static_cast<void>(server_.enter(*this, Stage::kIsAnswered));
   if (verdict.service == Service::kPage)
     return respond(Status::ok, "text/html; charset=utf-8", std::string(live_page()));
   if (verdict.service == Service::kStop)
-    return house_.door.on_order(R"({"stop":true})", reply_to([](ViewClient& client, const std::string& said) {
-                                  client.respond(Status::ok, "application/json", said);
-                                }));
+    return server_.door.on_order(R"({"stop":true})", reply_to([](ViewClient& client, const std::string& said) {
+                                   client.respond(Status::ok, "application/json", said);
+                                 }));
   respond(http::int_to_status(verdict.status), "text/plain; charset=utf-8", verdict.said);
 }
 
@@ -196,11 +192,11 @@ void ViewClient::respond(Status status, const char* type, std::string body) {
 }
 
 void ViewClient::upgrade(const std::string& subprotocol) {
-  if (!house_.enter(*this, Stage::kLooks)) {
-    static_cast<void>(house_.enter(*this, Stage::kIsAnswered));
+  if (!server_.enter(*this, Stage::kLooks)) {
+    static_cast<void>(server_.enter(*this, Stage::kIsAnswered));
     return respond(Status::service_unavailable, "text/plain", "as many look as may: close a page\n");
   }
-  if (!subprotocol.empty()) foxglove_.emplace(house_.door.channels.size(), house_.door.parameters);
+  if (!subprotocol.empty()) foxglove_.emplace(server_.door.channels.size(), server_.door.parameters);
   socket_.set_option(websocket::stream_base::timeout{kAnswered, kQuiet, true});
   socket_.set_option(websocket::stream_base::decorator([subprotocol](websocket::response_type& response) {
     if (!subprotocol.empty()) response.set(http::field::sec_websocket_protocol, subprotocol);
@@ -210,10 +206,10 @@ void ViewClient::upgrade(const std::string& subprotocol) {
   socket_.async_accept(request_->get(), then([](ViewClient& client) {
                          client.request_.reset();
                          client.received_.clear();
-                         if (!client.foxglove_) client.house_.welcome(client);
+                         if (!client.foxglove_) client.server_.welcome(client);
                          if (client.foxglove_)
-                           for (std::string& text : foxglove_greeting(client.house_.door.channels))
-                             client.send({"", std::make_shared<const std::string>(std::move(text))});
+                           for (const std::string& text : foxglove_greeting(client.server_.door.channels))
+                             client.say(text);
                          client.read_on();
                        }));
 }
@@ -234,22 +230,19 @@ void ViewClient::take_message() {
   const auto bytes = received_.cdata();
   const std::string_view text(static_cast<const char*>(bytes.data()), bytes.size());
   if (foxglove_) return obey(socket_.got_text() ? foxglove_->take_text(text) : foxglove_->take_binary(text));
-  house_.door.on_order(text, reply_to([](ViewClient& client, const std::string& said) {
-                         if (!said.empty()) client.send({"", std::make_shared<const std::string>(said)});
-                       }));
+  server_.door.on_order(text, reply_to([](ViewClient& client, const std::string& said) {
+                          if (!said.empty()) client.say(said);
+                        }));
 }
 
 void ViewClient::obey(const FoxgloveSession::Outcome& outcome) {
   if (!outcome.order.empty())
-    house_.door.on_order(outcome.order, reply_to([call = outcome.call](ViewClient& client, const std::string& said) {
-                           const bool is_text = call.empty();
-                           client.send({"",
-                                        std::make_shared<const std::string>(
-                                            is_text ? foxglove_answer(said) : foxglove_service_answer(call, said)),
-                                        is_text});
-                         }));
-  if (!outcome.status.empty()) send({"", std::make_shared<const std::string>(outcome.status)});
-  for (const std::size_t channel : outcome.subscribed) house_.repeat(*this, channel);
+    server_.door.on_order(outcome.order, reply_to([call = outcome.call](ViewClient& client, const std::string& said) {
+                            if (call.empty()) return client.say(foxglove_answer(said));
+                            client.say(foxglove_service_answer(call, said), false);
+                          }));
+  if (!outcome.status.empty()) say(outcome.status);
+  for (const std::size_t channel : outcome.subscribed) server_.repeat(*this, channel);
 }
 
 void ViewClient::offer(const ViewMessage& message) {
@@ -260,6 +253,10 @@ void ViewClient::offer(const ViewMessage& message) {
   if (message.kind == MessageKind::kTime) return send({foxglove_time(message.stamp), message.text, false});
   if (const auto wanted = is_topic ? foxglove_->subscription(message.channel) : std::nullopt)
     send({foxglove_head(*wanted, message.stamp), message.text, false});
+}
+
+void ViewClient::say(const std::string& text, bool is_text) {
+  send({"", std::make_shared<const std::string>(text), is_text});
 }
 
 void ViewClient::send(Outbox::Message message) {

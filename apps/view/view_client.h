@@ -1,17 +1,22 @@
 #pragma once
 // One client's connection, by Boost.Beast, which takes long to compile: no other header includes this one.
 // Rules of the live page's server: requests it answers, places of clients, messages that wait. None needs a connection.
+#include <array>
+#include <boost/asio/steady_timer.hpp>
 #include <boost/beast/core.hpp>
 #include <boost/beast/http.hpp>
 #include <boost/beast/websocket.hpp>
 #include <chrono>
 #include <cstdint>
 #include <deque>
+#include <list>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
+#include <thread>
 #include <utility>
+#include <vector>
 
 #include "apps/view/foxglove_session.h"
 #include "apps/view/secret.h"
@@ -117,23 +122,41 @@ class Outbox {
 
 class ViewClient;
 
-/// What a client is served by.
-struct ViewHouse {
-  ViewHouse() = default;
-  ViewHouse(const ViewHouse&) = delete;
-  ViewHouse& operator=(const ViewHouse&) = delete;
-  virtual ~ViewHouse() = default;
+class BeastServer final : public ViewServer {
+ public:
+  BeastServer(const ViewAddress& where, ViewDoor asked);
+  ~BeastServer() override;
+
   /// Gives `client` a place of that stage; false: there is none.
-  [[nodiscard]] virtual bool enter(ViewClient& client, Stage stage) = 0;
-  /// It has a WebSocket now: offers what the page shows.
-  virtual void welcome(ViewClient& client) = 0;
-  /// It subscribes to a channel: offers what that said last.
-  virtual void repeat(ViewClient& client, std::size_t channel) = 0;
+  [[nodiscard]] bool enter(ViewClient& client, Stage stage);
+  /// Offers what the page shows to a client that has a WebSocket now.
+  void welcome(ViewClient& client);
+  /// Offers what a channel said last to a client that subscribes to it.
+  void repeat(ViewClient& client, std::size_t channel);
 
   std::shared_ptr<boost::asio::io_context> io = std::make_shared<boost::asio::io_context>(1);
   std::shared_ptr<boost::asio::ssl::context> tls;  ///< none: not served
   ViewRules rules;
   ViewDoor door;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  void listen(const boost::asio::ip::tcp::endpoint& at);
+  void await_newcomers();
+  void accept_newcomers();
+  void tick();
+  void pass_on();
+  void count_clients();
+
+  boost::asio::ip::tcp::acceptor listener_{*io};
+  boost::asio::steady_timer timer_{*io};
+  std::list<std::shared_ptr<ViewClient>> clients_;
+  std::array<ViewMessage, 2> kept_;  ///< hello and the newest field
+  std::vector<ViewMessage> said_;    ///< by each channel, last
+  bool lacks_descriptor_ = false;
+  std::atomic<bool> ends_{false};
+  Clock::time_point ended_{};
+  std::thread thread_;
 };
 
 /// First TLS or not, as the client begins; then one request of HTTP; then, maybe, a WebSocket of the page's own or of
@@ -143,7 +166,7 @@ class ViewClient : public std::enable_shared_from_this<ViewClient> {
  public:
   using Clock = std::chrono::steady_clock;
 
-  ViewClient(boost::asio::ip::tcp::socket socket, ViewHouse& house);
+  ViewClient(boost::asio::ip::tcp::socket socket, BeastServer& server);
   void start();
   /// From time to time: ends what is late, and goes on reading.
   void tick(Clock::time_point now);
@@ -170,6 +193,7 @@ class ViewClient : public std::enable_shared_from_this<ViewClient> {
   void read_on();
   void take_message();
   void obey(const FoxgloveSession::Outcome& outcome);
+  void say(const std::string& text, bool is_text = true);
   void send(Outbox::Message message);
   void write_on();
   /// A handler that does nothing when something went wrong but close.
@@ -179,7 +203,7 @@ class ViewClient : public std::enable_shared_from_this<ViewClient> {
   Reply reply_to(Take take);
 
   boost::beast::websocket::stream<DoorStream> socket_;
-  ViewHouse& house_;
+  BeastServer& server_;
   std::uint32_t address_ = 0;
   bool local_ = false;
   Stage stage_ = Stage::kGone;

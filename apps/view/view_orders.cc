@@ -40,11 +40,6 @@ std::optional<GoalOrder> goal_at(Vec2 place, const std::array<double, 4>& xyzw) 
 
 bool is_map(std::string_view frame) { return frame.empty() || frame == "map" || frame == "/map"; }
 
-double number_in(const Json& json, const char* key) {
-  const auto found = json.find(key);
-  return found != json.end() && found->is_number() ? found->get<double>() : 0.0;
-}
-
 }  // namespace
 
 std::optional<ViewOrder> parse_order(std::string_view json) {
@@ -99,20 +94,17 @@ std::optional<GoalOrder> goal_from_cdr(std::string_view message) {
 
 std::optional<GoalOrder> goal_from_json(std::string_view message) {
   const Json json = Json::parse(message, nullptr, false);
-  if (!json.is_object() || !json.contains("pose")) return std::nullopt;
-  const Json empty = Json::object(), &stamped = json["pose"];
-  const Json& pose = stamped.contains("pose") ? stamped["pose"] : stamped;
-  const auto part = [&empty](const Json& of, const char* key) -> const Json& {
-    const auto found = of.find(key);
-    return found != of.end() && found->is_object() ? *found : empty;
+  using At = Json::json_pointer;
+  const At nested("/pose/pose"), frame("/header/frame_id");
+  const std::string pose = json.contains(nested) ? nested.to_string() : "/pose";
+  if (!json.contains(At(pose + "/position"))) return std::nullopt;
+  if (json.contains(frame) && !(json[frame].is_string() && is_map(json[frame].get<std::string>()))) return std::nullopt;
+  const auto number = [&](const char* name) {
+    const At place(pose + name);
+    return json.contains(place) && json[place].is_number() ? json[place].get<double>() : 0.0;
   };
-  if (!pose.is_object() || !pose.contains("position")) return std::nullopt;
-  const Json& header = part(json, "header");
-  if (header.contains("frame_id") && !(header["frame_id"].is_string() && is_map(header["frame_id"].get<std::string>())))
-    return std::nullopt;
-  const Json &place = part(pose, "position"), &turn = part(pose, "orientation");
-  return goal_at({number_in(place, "x"), number_in(place, "y")},
-                 {number_in(turn, "x"), number_in(turn, "y"), number_in(turn, "z"), number_in(turn, "w")});
+  return goal_at({number("/position/x"), number("/position/y")}, {number("/orientation/x"), number("/orientation/y"),
+                                                                  number("/orientation/z"), number("/orientation/w")});
 }
 
 std::string to_json(const GoalOrder& goal, const char* name) {

@@ -48,7 +48,7 @@ class ViewOrders {
 /// The same as JSON: {"header":{"frame_id":"map"},"pose":{"position":{"x":..},"orientation":{"z":..,"w":..}}}.
 [[nodiscard]] std::optional<GoalOrder> goal_from_json(std::string_view message);
 
-/// As the live page says it: {"goal":[x,y]} or {"goal":[x,y,heading]}; `name`: "goal" or "here".
+/// As parse_order() reads it; `name`: "goal" or "here".
 [[nodiscard]] std::string to_json(const GoalOrder& goal, const char* name = "goal");
 
 /// Operator panel with the live page's goals in place of its own.

@@ -9,6 +9,7 @@
 
 #include "firmware/safety/latency.h"
 #include "firmware/safety/reasons.h"
+#include "firmware/safety/stop_zone.h"
 #include "planner/motion/goal_rollouts.h"
 #include "planner/scan/scan_points.h"
 
@@ -52,8 +53,8 @@ void take(ViewSnapshot& into, const TickRecord& record, const ControlLoop& loop)
   for (std::size_t k = 0; k < record.scans().size(); ++k)
     into.map_from_robot_at_scan[k] = loop.estimator().map_from_robot_at_scan(k);
   into.twist = loop.estimator().twist();
-  copy(into.tracks, std::span<const Track>(loop.tracker().tracks()));
-  copy(into.standing, std::span<const StandingPedestrian>(loop.tracker().standing()));
+  copy(into.tracks, loop.tracker().tracks());
+  copy(into.standing, loop.tracker().standing());
   into.plan = loop.plan();
   into.movers.clear();
   const motion::GoalRollouts* rollouts = loop.motion().rollouts();
@@ -70,7 +71,7 @@ void take(ViewSnapshot& into, const TickRecord& record, const ControlLoop& loop)
   }
 }
 
-void SnapshotTap::offer(const TickRecord& record, const ControlLoop& loop) noexcept {
+void RunTap::after_tick(const TickRecord& record, const ControlLoop& loop) noexcept {
   if (!wanted_ || (taken_ != kNever && age(taken_, record.now) < kTakeEvery)) return;
   ViewSnapshot* const slot = snapshots_.draft();
   if (slot == nullptr) return;
@@ -100,12 +101,13 @@ void draw(FieldPicture& into, const FieldView& field, const EvidenceMap& seen) n
   }
 }
 
-void PlannerTap::offer(const Planner& planner, const EvidenceMap& map, Time stamp) noexcept {
+void RunTap::after_plan(const Planner& planner, const EvidenceMap& map, Time stamp) noexcept {
   if (!wanted_ || full_.load(std::memory_order_acquire)) return;
-  if (stamp_ != kNever && age(stamp_, stamp) < kOfferEvery) return;
-  draw(field_, planner.view_field(), map);
-  map_ = map;  // of the same size: no memory is taken
-  stamp_ = stamp;
+  auto& [field, kept, last] = offer_;
+  if (last != kNever && age(last, stamp) < kOfferEvery) return;
+  draw(field, planner.view_field(), map);
+  kept = map;  // of the same size: no memory is taken
+  last = stamp;
   full_.store(true, std::memory_order_release);
 }
 
@@ -115,6 +117,7 @@ constexpr double kStands_mps = 1e-3;
 using Ordered = nlohmann::ordered_json;
 
 constexpr std::int32_t kMostGroundSide = 1000;
+constexpr std::size_t kZoneParts = 4;
 constexpr std::size_t kPathStep = 2;  ///< every second of points 0.05 to 0.2 m apart
 
 /// To the millimetre: the page shows no more.
@@ -143,34 +146,29 @@ Ordered hits_of(const ViewSnapshot& snapshot, const OfEach<LaserModel>& lasers) 
   return hits;
 }
 
+/// An array with `row` of each item.
+template <class Items, class Row>
+Ordered rows_of(const Items& items, Row row) {
+  Ordered out = Ordered::array();
+  for (const auto& item : items) out.push_back(row(item));
+  return out;
+}
+
 /// Position, radius, whether it moves, velocity, whether it ever walked.
-Ordered tracks_of(std::span<const Track> tracks) {
-  Ordered out = Ordered::array();
-  for (const Track& k : tracks)
-    out.push_back({k.id, mm(k.position_in_map.x), mm(k.position_in_map.y), mm(k.radius_m), k.moving ? 1 : 0,
-                   mm(k.velocity_in_map.x), mm(k.velocity_in_map.y), k.is_pedestrian ? 1 : 0});
-  return out;
+Ordered track_row(const Track& k) {
+  return Ordered::array({k.id, mm(k.position_in_map.x), mm(k.position_in_map.y), mm(k.radius_m), k.moving ? 1 : 0,
+                         mm(k.velocity_in_map.x), mm(k.velocity_in_map.y), k.is_pedestrian ? 1 : 0});
 }
 
-/// A row a mover: its radius, then x and y of the first future at each time, of the second, and so on.
-Ordered futures_of(std::span<const ShownMover> movers) {
-  Ordered out = Ordered::array();
-  for (const ShownMover& mover : movers) {
-    Ordered row = Ordered::array({cm(mover.radius_m)});
-    for (const auto& future : mover.at)
-      for (const Place& p : future) row.push_back(cm(p.x)), row.push_back(cm(p.y));
-    out.push_back(std::move(row));
-  }
-  return out;
+/// A mover's radius, then x and y of the first future at each time, of the second, and so on.
+Ordered futures_row(const ShownMover& mover) {
+  Ordered row = Ordered::array({cm(mover.radius_m)});
+  for (const auto& future : mover.at)
+    for (const Place& p : future) row.push_back(cm(p.x)), row.push_back(cm(p.y));
+  return row;
 }
 
-/// Where the plan of a robot without sampled futures expects movers.
-Ordered expected_of(const Plan& plan) {
-  Ordered out = Ordered::array();
-  for (const Prediction& p : plan.predictions)
-    out.push_back({mm(p.position_in_map.x), mm(p.position_in_map.y), mm(p.mark_radius_m)});
-  return out;
-}
+Ordered disc_row(Vec2 place, double radius_m) { return {mm(place.x), mm(place.y), mm(radius_m)}; }
 
 Ordered path_of(const Path& path) {
   Ordered out = Ordered::array();
@@ -178,21 +176,27 @@ Ordered path_of(const Path& path) {
   return out;
 }
 
-Ordered chosen_of(const ViewSnapshot& snapshot) {
-  Ordered out = Ordered::array();
-  for (const Place& p : snapshot.chosen)
-    if (snapshot.has_chosen) out.push_back({cm(p.x), cm(p.y)});
-  return out;
-}
-
-Ordered zone_of(const ShownStopZone::Outlines& zone) {
-  Ordered out = Ordered::array();
-  for (const Corners& corners : zone) {
-    Ordered outline = Ordered::array();
-    for (const Vec2& corner : corners) outline.push_back(place(corner));
-    out.push_back(std::move(outline));
+/// The supervisor's stop zone: outlines of the body, grown by its margin, where it comes from the twist that was
+/// permitted, after the reaction time that the supervisor reckons with, along its arc; the last one is where it stands.
+Ordered zone_of(const TickRecord& t, const RobotModel& model, Duration tick) {
+  const StopZone zone(stop_zone_for(model, tick));
+  const Twist2& twist = t.verdict.permitted;
+  const double rim_mps = zone.rim_speed_mps(twist), margin_m = zone.margin_at(rim_mps);
+  const double reaction = reaction_s(t.scans(), model, t.now, tick, t.latency);
+  const bool stands = rim_mps < kStands_mps;
+  const SweptPath way(stands ? Twist2{} : twist, std::max(rim_mps, kStands_mps),
+                      stands ? 0.0 : zone.stopping_distance_m(rim_mps, reaction));
+  const Footprint& body = model.footprint;
+  const double front = body.front_m + margin_m, rear = -body.rear_m - margin_m, side = body.half_width_m + margin_m;
+  const std::array<Vec2, 4> corners{{{front, side}, {front, -side}, {rear, -side}, {rear, side}}};
+  const Transform2 map_from_robot(t.pose.map_from_robot);
+  Ordered outlines = Ordered::array();
+  const std::size_t parts = stands ? 1 : kZoneParts;
+  for (std::size_t part = 1; part <= parts; ++part) {
+    const std::size_t k = way.steps() * part / parts;
+    outlines.push_back(rows_of(corners, [&](Vec2 p) { return place(map_from_robot * way.place_of(k, p)); }));
   }
-  return out;
+  return outlines;
 }
 
 std::string base64_of(std::span<const std::uint8_t> bytes) {
@@ -231,80 +235,58 @@ Ordered reasons_in_words() {
 
 }  // namespace
 
-ShownStopZone::ShownStopZone(const RobotModel& model, Duration tick)
-    : model_(model), tick_(tick), zone_(stop_zone_for(model, tick)) {}
-
-ShownStopZone::Outlines ShownStopZone::at(const TickRecord& t) const noexcept {
-  const Twist2& twist = t.verdict.permitted;
-  const double rim_mps = zone_.rim_speed_mps(twist), margin_m = zone_.margin_at(rim_mps);
-  const double reaction = reaction_s(t.scans(), model_, t.now, tick_, t.latency);
-  const bool stands = rim_mps < kStands_mps;
-  const SweptPath way(stands ? Twist2{} : twist, std::max(rim_mps, kStands_mps),
-                      stands ? 0.0 : zone_.stopping_distance_m(rim_mps, reaction));
-  const Footprint& body = model_.footprint;
-  const double front = body.front_m + margin_m, rear = -body.rear_m - margin_m, side = body.half_width_m + margin_m;
-  const Transform2 map_from_robot(t.pose.map_from_robot);
-  Outlines outlines;
-  const std::size_t parts = stands ? 1 : outlines.capacity();
-  for (std::size_t part = 1; part <= parts; ++part) {
-    const std::size_t k = way.steps() * part / parts;
-    const auto corner = [&](double x, double y) { return map_from_robot * way.place_of(k, {x, y}); };
-    static_cast<void>(
-        outlines.push_back({corner(front, side), corner(front, -side), corner(rear, -side), corner(rear, side)}));
-  }
-  return outlines;
-}
-
-std::string to_json(const HelloScene& hello) {
-  Ordered walls = Ordered::array();
-  for (const sim::WallSegment& w : hello.walls) walls.push_back({mm(w.from.x), mm(w.from.y), mm(w.to.x), mm(w.to.y)});
-  const Footprint& body = hello.model.footprint;
+std::string to_json(const HelloScene& hello, const ControlSetup& setup, bool keeps_ticks) {
+  const auto wall = [](const sim::WallSegment& w) {
+    return Ordered{mm(w.from.x), mm(w.from.y), mm(w.to.x), mm(w.to.y)};
+  };
+  const Footprint& body = setup.model.footprint;
   return scene_text({{"kind", "hello"},
                      {"title", hello.title},
-                     {"tick_s", hello.tick_s},
+                     {"tick_s", to_seconds(setup.tick())},
                      {"takes_goals", hello.takes_goals},
                      {"takes_pauses", hello.takes_pauses},
-                     {"keeps_ticks", hello.keeps_ticks},
+                     {"keeps_ticks", keeps_ticks},
                      {"front_m", body.front_m},
                      {"rear_m", body.rear_m},
                      {"half_width_m", body.half_width_m},
-                     {"max_speed_mps", hello.model.limits.max_speed_mps},
-                     {"walls", walls},
+                     {"max_speed_mps", setup.model.limits.max_speed_mps},
+                     {"walls", rows_of(hello.walls, wall)},
                      {"reasons", reasons_in_words()},
                      {"faults", hello.faults},
                      {"ground", hello.known == nullptr ? Ordered(nullptr) : ground_of(*hello.known)}});
 }
 
 std::string to_json(const ViewSnapshot& snapshot, const OfEach<LaserModel>& lasers) {
-  Ordered standing = Ordered::array();
-  for (const StandingPedestrian& s : snapshot.standing)
-    standing.push_back({mm(s.position_in_map.x), mm(s.position_in_map.y), mm(s.radius_m)});
-  const std::span<const ShownMover> movers{snapshot.movers.begin(), snapshot.movers.size()};
+  const auto standing = [](const StandingPedestrian& s) { return disc_row(s.position_in_map, s.radius_m); };
+  const auto expected = [](const Prediction& p) { return disc_row(p.position_in_map, p.mark_radius_m); };
+  const auto chosen = [](const Place& p) { return Ordered{cm(p.x), cm(p.y)}; };
+  const auto none = Ordered::array();
   return scene_text({{"hits", hits_of(snapshot, lasers)},
-                     {"tracks", tracks_of({snapshot.tracks.begin(), snapshot.tracks.size()})},
-                     {"standing", standing},
-                     {"futures", futures_of(movers)},
-                     {"expected", movers.empty() ? expected_of(snapshot.plan) : Ordered::array()},
-                     {"chosen", chosen_of(snapshot)},
+                     {"tracks", rows_of(snapshot.tracks, track_row)},
+                     {"standing", rows_of(snapshot.standing, standing)},
+                     {"futures", rows_of(snapshot.movers, futures_row)},
+                     {"expected", snapshot.movers.empty() ? rows_of(snapshot.plan.predictions, expected) : none},
+                     {"chosen", snapshot.has_chosen ? rows_of(snapshot.chosen, chosen) : none},
                      {"path", path_of(snapshot.plan.path)}});
 }
 
-std::string frame_head(const FrameScene& frame) {
-  const TickRecord& t = frame.record;
+std::string frame_head(const ViewSnapshot& snapshot, std::uint64_t number, const ControlSetup& setup,
+                       std::string_view ended) {
+  const TickRecord& t = snapshot.record;
   const Pose2& pose = t.pose.map_from_robot;
   Ordered out{{"kind", "frame"},
-              {"tick", frame.tick},
+              {"tick", number},
               {"t", mm(to_seconds(t.now))},
               {"pose", {mm(pose.x), mm(pose.y), mm(pose.heading)}},
               {"wanted", {mm(t.wanted.v_mps), mm(t.wanted.w_radps)}},
               {"permitted", {mm(t.verdict.permitted.v_mps), mm(t.verdict.permitted.w_radps)}},
-              {"speed", mm(frame.speed_mps)},
+              {"speed", mm(snapshot.twist.v_mps)},
               {"stops", t.input.stop_orders},
               {"gap_m", mm(t.verdict.gap_m)},
               {"reasons", to_string(t.verdict.reasons, t.verdict.faulty_scanners)},
-              {"zone", zone_of(frame.zone)},
+              {"zone", zone_of(t, setup.model, setup.tick())},
               {"arrived", t.input.has_goal && t.input.is_reached_at(pose)},
-              {"ended", frame.ended}};
+              {"ended", ended}};
   if (t.input.has_goal)
     out["goal"] = {mm(t.input.goal_in_map.x), mm(t.input.goal_in_map.y), mm(t.input.goal_heading_rad)};
   std::string text = scene_text(out);

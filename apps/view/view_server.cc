@@ -1,15 +1,10 @@
 #include "apps/view/view_server.h"
 
-#include <arpa/inet.h>
 #include <fcntl.h>
 #include <pthread.h>
 #include <signal.h>
 
 #include <algorithm>
-#include <array>
-#include <boost/asio/steady_timer.hpp>
-#include <list>
-#include <thread>
 #include <utility>
 
 #include "apps/view/secret.h"
@@ -30,39 +25,15 @@ constexpr int kAcceptedAtOnce = 8;  ///< few, so that what they ask is read befo
 constexpr int kBacklog = 1024;
 
 Tcp::endpoint parsed(const ViewAddress& where) {
-  in_addr address{};
-  if (::inet_pton(AF_INET, where.address.c_str(), &address) != 1)
+  Error none;
+  const auto address = asio::ip::make_address_v4(where.address, none);
+  if (none)
     throw StartupError("--view-address " + shown(where.address) + ": no IPv4 address",
                        "give one of this machine's, such as 127.0.0.1; 0.0.0.0 serves all of them");
-  return {asio::ip::address_v4(ntohl(address.s_addr)), where.port};
+  return {address, where.port};
 }
 
-class BeastServer final : public ViewServer, public ViewHouse {
- public:
-  BeastServer(const ViewAddress& where, ViewDoor asked);
-  ~BeastServer() override;
-
- private:
-  bool enter(ViewClient& client, Stage stage) override;
-  void welcome(ViewClient& client) override;
-  void repeat(ViewClient& client, std::size_t channel) override;
-  void listen(const Tcp::endpoint& at);
-  void await_newcomers();
-  void accept_newcomers();
-  void tick();
-  void pass_on();
-  void count_clients();
-
-  Tcp::acceptor listener_{*io};
-  asio::steady_timer timer_{*io};
-  std::list<std::shared_ptr<ViewClient>> clients_;
-  std::array<ViewMessage, 2> kept_;  ///< hello and the newest field
-  std::vector<ViewMessage> said_;    ///< by each channel, last
-  bool lacks_descriptor_ = false;
-  std::atomic<bool> ends_{false};
-  ViewClient::Clock::time_point ended_{};
-  std::thread thread_;
-};
+}  // namespace
 
 BeastServer::BeastServer(const ViewAddress& where, ViewDoor asked) : said_(asked.channels.size()) {
   door = std::move(asked);
@@ -132,7 +103,7 @@ void BeastServer::accept_newcomers() {
 bool BeastServer::enter(ViewClient& newcomer, Stage stage) {
   std::vector<Placed> placed;
   std::vector<ViewClient*> clients;
-  const auto now = ViewClient::Clock::now();
+  const auto now = Clock::now();
   for (const auto& client : clients_) {
     if (client->stage() != stage || client->is_local() != newcomer.is_local()) continue;
     placed.push_back(client->placed(now));
@@ -157,8 +128,8 @@ void BeastServer::repeat(ViewClient& client, std::size_t channel) {
 }
 
 void BeastServer::tick() {
-  const auto now = ViewClient::Clock::now();
-  if (ends_ && ended_ == ViewClient::Clock::time_point{}) ended_ = now;
+  const auto now = Clock::now();
+  if (ends_ && ended_ == Clock::time_point{}) ended_ = now;
   pass_on();
   for (const auto& client : clients_) client->tick(now);
   std::erase_if(clients_, [](const auto& client) { return client->stage() == Stage::kGone; });
@@ -193,8 +164,6 @@ void BeastServer::count_clients() {
   has_pages_ = pages;
   wanted_ = channels;
 }
-
-}  // namespace
 
 void be_in_background() noexcept {
   sigset_t all;

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "apps/view/foxglove_session.h"
-#include "firmware/robot/service_manager.h"
+#include "firmware/recording/recorder.h"
 
 namespace jaywalk::view {
 /// Makes the calling thread one of ordinary priority that takes no signals. Threads of the page call it first: they
@@ -61,16 +61,14 @@ class ViewServer {
  public:
   /// Throws StartupError where the address is none, the port is taken or the certificate cannot be used.
   [[nodiscard]] static std::unique_ptr<ViewServer> serve(const ViewAddress& where, ViewDoor door);
-  ViewServer() = default;
   virtual ~ViewServer() = default;
-  ViewServer(const ViewServer&) = delete;
-  ViewServer& operator=(const ViewServer&) = delete;
 
-  void push(MessageKind kind, std::string text) { push(kind, 0, kNever, std::move(text)); }
-  void push(std::size_t channel, Time stamp, std::string text) {
-    push(MessageKind::kTopic, channel, stamp, std::move(text));
+  void push(MessageKind kind, std::string text, Time stamp = kNever, std::size_t channel = 0) {
+    ViewMessage* const slot = ring_.draft();
+    if (slot == nullptr) return;
+    *slot = {kind, std::make_shared<const std::string>(std::move(text)), channel, stamp};
+    ring_.publish();
   }
-  void push_time(Time now) { push(MessageKind::kTime, 0, now, ""); }
   /// Pages and subscribers that look now.
   [[nodiscard]] int viewers() const noexcept { return viewers_; }
   [[nodiscard]] bool has_pages() const noexcept { return has_pages_; }
@@ -87,14 +85,6 @@ class ViewServer {
   std::atomic<bool> has_pages_{false};
   std::atomic<std::uint32_t> wanted_{0};
   std::string url_, fingerprint_;
-
- private:
-  void push(MessageKind kind, std::size_t channel, Time stamp, std::string text) {
-    ViewMessage* const slot = ring_.draft();
-    if (slot == nullptr) return;
-    *slot = {kind, std::make_shared<const std::string>(std::move(text)), channel, stamp};
-    ring_.publish();
-  }
 };
 
 }  // namespace jaywalk::view

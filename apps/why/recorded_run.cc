@@ -1,5 +1,6 @@
 #include "apps/why/recorded_run.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "apps/rivals/paper_mode.h"
@@ -22,12 +23,9 @@ std::vector<std::filesystem::path> recordings_of(const std::filesystem::path& ru
   return files;
 }
 
-std::string said_of(int part, const TickRecord& first) {
-  const Pose2& at = first.pose.map_from_robot;
-  return formatted(
-      "begins with part %d of its run, at %.2f s: lived through as a new run from %.2f, %.2f, heading %.2f, "
-      "with nothing mapped, followed, planned or latched before",
-      part, to_seconds(first.now), at.x, at.y, at.heading);
+std::filesystem::path folder_of(const std::filesystem::path& file) {
+  std::error_code missing;
+  return std::filesystem::canonical(file, missing).parent_path();
 }
 
 std::unique_ptr<Planner> planner_for(ControlSetup setup) {
@@ -46,24 +44,25 @@ RecordedRun::RecordedRun(const std::filesystem::path& run, FilePart place)
   if (!reader_->next(record_))
     throw StartupError(files_[0].string() + ": no whole tick in it", "take an undamaged copy of the recording");
   if (!begins_anew()) return;
-  setup_.start = record_.pose.map_from_robot;
+  const Pose2& at = setup_.start = record_.pose.map_from_robot;
   setup_.judges_motion = false;  // the wheels obeyed commands that a new run did not give
-  anew_ = said_of(setup_.part, record_);
+  anew_ = formatted(
+      "begins with part %d of its run, at %.2f s: lived through as a new run from %.2f, %.2f, heading %.2f, "
+      "with nothing mapped, followed, planned or latched before",
+      setup_.part, to_seconds(record_.now), at.x, at.y, at.heading);
 }
 
 std::filesystem::path RecordedRun::folder() const {
-  std::error_code missing;
-  const std::filesystem::path place = std::filesystem::canonical(files_[0], missing).parent_path();
+  const std::filesystem::path place = folder_of(files_[0]);
   return part_number(place) > 0 ? place.parent_path() : place;
 }
 
 bool RecordedRun::lies_in(const std::filesystem::path& folder) const {
   std::error_code missing;
-  for (const std::filesystem::path& file : files_) {
-    const std::filesystem::path place = std::filesystem::canonical(file, missing).parent_path();
-    if (std::filesystem::equivalent(place, folder, missing)) return true;
-  }
-  return std::filesystem::equivalent(this->folder(), folder, missing);
+  const auto is_it = [&](const std::filesystem::path& own) {
+    return std::filesystem::equivalent(own, folder, missing);
+  };
+  return is_it(this->folder()) || std::ranges::any_of(files_, is_it, folder_of);
 }
 
 bool RecordedRun::step() {

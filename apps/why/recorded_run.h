@@ -44,8 +44,7 @@ class RecordedRun {
   /// RecordingReader's.
   [[nodiscard]] std::uint64_t lost_before() const { return reader_->lost_before(); }
   /// What a person should know of it, a line each: that it begins anew, where it was cut, and in how many ticks this
-  /// program `does`
-  /// ("commands") otherwise than the one that recorded.
+  /// program `does` ("commands") otherwise than the one that recorded.
   [[nodiscard]] std::string remarks(std::uint64_t different, const std::string& does) const;
 
  private:
@@ -68,12 +67,10 @@ class SeenRun {
   /// `run`, at its beginning, outlives it.
   explicit SeenRun(RecordedRun& run) : run_(run), estimator_(run.setup()) {}
 
-  /// RecordedRun's.
   [[nodiscard]] bool step();
   [[nodiscard]] const TickRecord& last() const { return run_.last(); }
   /// What was seen up to that tick.
   [[nodiscard]] const Tracker& tracker() const { return estimator_.tracker(); }
-  /// RecordedRun's.
   [[nodiscard]] std::string remarks() const { return run_.remarks(different_, "sees"); }
 
  private:
@@ -88,16 +85,13 @@ class RelivedRun {
   /// `run`, at its beginning, outlives it.
   explicit RelivedRun(RecordedRun& run);
 
-  /// Lives through the next tick. RecordedRun's.
+  /// Lives through the next tick.
   [[nodiscard]] bool step();
   /// The tick just lived through.
   [[nodiscard]] const TickRecord& last() const { return *last_; }
   [[nodiscard]] const ControlLoop& loop() const { return loop_; }
-  [[nodiscard]] const Tracker& tracker() const { return loop_.tracker(); }
   [[nodiscard]] const Planner& planner() const { return planner_; }
-  [[nodiscard]] const ControlSetup& setup() const { return run_.setup(); }
-  [[nodiscard]] const std::filesystem::path& file() const { return run_.file(); }
-  /// RecordedRun's.
+  [[nodiscard]] const RecordedRun& recorded() const { return run_; }
   [[nodiscard]] std::string remarks() const { return run_.remarks(different_, "commands"); }
 
  private:

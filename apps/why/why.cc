@@ -15,12 +15,6 @@ namespace {
 
 constexpr float kWorthSaying_s = 0.05F;
 
-/// Tracked bodies, and the robot's own outline.
-struct BodiesAbout {
-  std::span<const Track> tracks;
-  Footprint footprint;
-};
-
 /// The terms beside the time, in the order of the table's columns.
 std::array<std::pair<const char*, float>, 7> terms_of(const motion::Cost& cost) {
   return {{{"getting in somebody's way", cost.conflict},
@@ -34,13 +28,19 @@ std::array<std::pair<const char*, float>, 7> terms_of(const motion::Cost& cost) 
 
 using Driven = std::array<motion::RobotState, motion::kSteps>;
 
-/// A mover's nearest place to the robot's outline, in any of its futures.
-struct NearestPlace {
+/// A body's nearest place to the robot's outline, and when it is there.
+struct Meeting {
   double gap_m = 1e9, at_s = 0.0;
+
+  void consider(double gap, double at) {
+    if (gap < gap_m) *this = {gap, at};
+  }
 };
-NearestPlace nearest_on(const Driven& driven, const motion::Futures& futures, std::size_t mover,
-                        const Footprint& footprint) {
-  NearestPlace best;
+
+/// Looks in all of the mover's futures.
+Meeting nearest_on(const Driven& driven, const motion::Futures& futures, std::size_t mover,
+                   const Footprint& footprint) {
+  Meeting best;
   for (int step = 1; step < motion::kFutureSteps; ++step) {  // a step for two of the robot's
     const motion::RobotState& r = driven[static_cast<std::size_t>(2 * step - 1)];
     const Pose2 pose{static_cast<double>(r.x), static_cast<double>(r.y), static_cast<double>(r.heading)};
@@ -48,8 +48,8 @@ NearestPlace nearest_on(const Driven& driven, const motion::Futures& futures, st
     const motion::MoverAt& at = futures.at(step, mover);
     for (int k = 0; k < motion::kFutures; ++k) {
       const Vec2 place{static_cast<double>(at.x[k]), static_cast<double>(at.y[k])};
-      const double gap_m = footprint.distance_to(robot_from_map * place) - static_cast<double>(futures.radius(mover));
-      if (gap_m < best.gap_m) best = {gap_m, step * static_cast<double>(motion::kFutureStepS)};
+      best.consider(footprint.distance_to(robot_from_map * place) - static_cast<double>(futures.radius(mover)),
+                    step * static_cast<double>(motion::kFutureStepS));
     }
   }
   return best;
@@ -68,33 +68,32 @@ std::string name_of(const motion::Futures& futures, std::size_t mover, std::span
 }
 
 /// The mover that may come nearest.
-std::string met_in_words(const Driven& driven, const motion::Futures& futures, const BodiesAbout& around) {
-  NearestPlace met;
+std::string met_in_words(const Driven& driven, const RelivedRun& run) {
+  const motion::Futures& futures = run.loop().motion().rollouts()->futures();
+  Meeting met;
   std::size_t who = 0;
   for (std::size_t m = 0; m < futures.movers(); ++m) {
-    const NearestPlace nearest = nearest_on(driven, futures, m, around.footprint);
+    const Meeting nearest = nearest_on(driven, futures, m, run.recorded().setup().model.footprint);
     if (nearest.gap_m < met.gap_m) met = nearest, who = m;
   }
   if (met.gap_m > 1e8) return "";
-  const std::string name = name_of(futures, who, around.tracks);
+  const std::string name = name_of(futures, who, run.loop().tracker().tracks());
   return name + (met.gap_m <= 0.0 ? " could run into it" : formatted(" could come within %.1f m", met.gap_m)) +
          formatted(" in %.1f s", met.at_s);
 }
 
-std::string in_words(const motion::Cost& cost, const Driven& driven, const motion::Futures& futures,
-                     const BodiesAbout& around) {
+std::string in_words(const motion::Cost& cost, const Driven& driven, const RelivedRun& run) {
   std::string words = formatted("%.1f s to the goal", static_cast<double>(cost.time)), more;
   for (const auto& [what, value] : terms_of(cost))
     if (value >= kWorthSaying_s)
       more += (more.empty() ? ", plus " : ", ") + formatted("%.1f s for %s", static_cast<double>(value), what);
-  const std::string met = cost.conflict + cost.nearness >= kWorthSaying_s ? met_in_words(driven, futures, around) : "";
+  const std::string met = cost.conflict + cost.nearness >= kWorthSaying_s ? met_in_words(driven, run) : "";
   return words + more + (met.empty() ? "" : " (" + met + ")");
 }
 
 Vec2 place_of(const motion::RobotState& s) { return {static_cast<double>(s.x), static_cast<double>(s.y)}; }
 
-std::vector<Vec2> way_of(const motion::RobotState& start,
-                         const std::array<motion::RobotState, motion::kSteps>& driven) {
+std::vector<Vec2> way_of(const motion::RobotState& start, const Driven& driven) {
   std::vector<Vec2> way{place_of(start)};
   for (const motion::RobotState& s : driven) way.push_back(place_of(s));
   return way;
@@ -121,27 +120,27 @@ std::pair<const char*, const char*> names_of(motion::Proposal proposal) {
 
 /// "to follow the way, as decided 1.2 s before: 25.8 s to the goal, plus 0.4 s for being close to people (body 7 could
 /// come within 0.3 m in 1.8 s)".
-std::string chosen_in_words(const motion::GoalRollouts& motion, const Resolve& resolve, const BodiesAbout& around) {
-  const motion::Decision& decision = motion.decision();
+std::string chosen_in_words(const RelivedRun& run, const Resolve& resolve) {
+  const motion::Decision& decision = run.loop().motion().rollouts()->decision();
   const double since_s = to_seconds(decision.at - resolve.at);
   return std::string("to ") + names_of(resolve.proposal).second +
          (since_s > 0.0 ? formatted(", as decided %.1f s before", since_s) : "") + ": " +
-         in_words(decision.cost, decision.driven, motion.futures(), around);
+         in_words(decision.cost, decision.driven, run);
 }
 
 /// "to wait and then go would have cost 0.3 s more: ...": the cheapest of another kind; empty where there is none.
-std::string next_best_in_words(const motion::GoalRollouts& motion, const Resolve& resolve,
-                               const std::vector<motion::Alternative>& alternatives, const BodiesAbout& around) {
-  const auto next = std::ranges::find_if(alternatives, [&](const motion::Alternative& a) {
-    return a.trajectory.proposal != motion::Proposal::kLast && a.trajectory.proposal != resolve.proposal;
+std::string next_best_in_words(const RelivedRun& run, const Weighed& weighed) {
+  const auto next = std::ranges::find_if(weighed.alternatives, [&](const motion::Alternative& a) {
+    return a.trajectory.proposal != motion::Proposal::kLast && a.trajectory.proposal != weighed.resolve.proposal;
   });
-  if (next == alternatives.end()) return "";
-  const double more_s = static_cast<double>(next->cost.total() - motion.decision().cost.total());
+  if (next == weighed.alternatives.end()) return "";
+  const float chosen_s = run.loop().motion().rollouts()->decision().cost.total();
+  const double more_s = static_cast<double>(next->cost.total() - chosen_s);
   return std::string("to ") + names_of(next->trajectory.proposal).second +
          (std::fabs(more_s) < kWorthSaying_s ? " is as good: "
           : more_s > 0.0                     ? formatted(" would have cost %.1f s more: ", more_s)
                          : formatted(" is better by %.1f s, too little for a change of mind: ", -more_s)) +
-         in_words(next->cost, next->driven, motion.futures(), around);
+         in_words(next->cost, next->driven, run);
 }
 
 /// "stop_zone" as a person says it: "something stands in the way". Every reason of the set, joined by "; ".
@@ -160,20 +159,16 @@ std::string side(double rad) {
   return degrees < 5.0 ? "straight ahead" : formatted("%.0f degrees to the %s", degrees, rad > 0.0 ? "left" : "right");
 }
 
-/// Where a track is nearest to the robot's outline if both go on as they do: a robot on a bend is stepped along it.
-struct Meeting {
-  double gap_m = 0.0, at_s = 0.0;
-};
+/// Expects that both go on as they do: a robot on a bend is stepped along it.
 Meeting nearest(const Track& track, const Pose2& from, const Twist2& twist, const Footprint& footprint) {
-  Meeting best{1e9, 0.0};
+  Meeting best;
   for (double t = 0.0; t <= kLookAhead_s; t += 0.1) {
     const double turned = twist.w_radps * t;
     const Vec2 along = direction(from.heading + 0.5 * turned);
     const Vec2 robot = from.position() + along * (twist.v_mps * t);
     const Transform2 robot_from_map = Transform2(inverse(Pose2{robot.x, robot.y, from.heading + turned}));
     const Vec2 then = track.position_in_map + track.velocity_in_map * t;
-    const double gap = footprint.distance_to(robot_from_map * then) - track.radius_m;
-    if (gap < best.gap_m) best = {gap, t};
+    best.consider(footprint.distance_to(robot_from_map * then) - track.radius_m, t);
   }
   return best;
 }
@@ -205,40 +200,35 @@ std::string saw(const TickRecord& t, std::span<const Track> tracks) {
   return words + formatted("; it followed %zu bodies, %d of them moving.\n", tracks.size(), static_cast<int>(moving));
 }
 
-/// The mover that comes nearest if everybody goes on at these speeds.
-const Track* first_met(std::span<const Track> tracks, const Pose2& from, const Twist2& twist,
-                       const Footprint& footprint) {
-  const Track* met = nullptr;
-  double least_m = 0.0;
-  for (const Track& track : tracks) {
-    if (!track.moving) continue;
-    const double gap_m = nearest(track, from, twist, footprint).gap_m;
-    if (met == nullptr || gap_m < least_m) met = &track, least_m = gap_m;
-  }
-  return met;
-}
-
 std::string in_words(const Meeting& meeting) {
   if (meeting.at_s == 0.0) return meeting.gap_m > 0.0 ? "comes no nearer" : "is beside the robot already";
   return (meeting.gap_m > 0.0 ? formatted("comes to %.1f m of the robot", meeting.gap_m) : "runs into the robot") +
          formatted(" in %.1f s", meeting.at_s);
 }
 
-std::string expected(const TickRecord& t, const BodiesAbout& around) {
+/// The mover that comes nearest if all go on at these speeds.
+std::string expected(const RelivedRun& run) {
+  const TickRecord& t = run.last();
   const Pose2& here = t.pose.map_from_robot;
-  const Track* met = first_met(around.tracks, here, t.verdict.permitted, around.footprint);
-  if (met == nullptr) return "It expected: nobody who walks.\n";
-  const Vec2 off = met->position_in_map - here.position();
-  return formatted("It expected: body %u, %.1f m off, %s, walks %.2f m/s; as both go now it %s.\n", met->id, norm(off),
-                   side(wrap_angle(std::atan2(off.y, off.x) - here.heading)).c_str(), norm(met->velocity_in_map),
-                   in_words(nearest(*met, here, t.verdict.permitted, around.footprint)).c_str());
+  const Track* first = nullptr;
+  Meeting met;
+  for (const Track& track : run.loop().tracker().tracks()) {
+    if (!track.moving) continue;
+    const Meeting own = nearest(track, here, t.verdict.permitted, run.recorded().setup().model.footprint);
+    if (first == nullptr || own.gap_m < met.gap_m) first = &track, met = own;
+  }
+  if (first == nullptr) return "It expected: nobody who walks.\n";
+  const Vec2 off = first->position_in_map - here.position();
+  return formatted("It expected: body %u, %.1f m off, %s, walks %.2f m/s; as both go now it %s.\n", first->id,
+                   norm(off), side(wrap_angle(std::atan2(off.y, off.x) - here.heading)).c_str(),
+                   norm(first->velocity_in_map), in_words(met).c_str());
 }
 
-std::string wanted(const TickRecord& t, const ControlLoop& loop, const Weighed& weighed, const BodiesAbout& around) {
+std::string wanted(const RelivedRun& run, const Weighed& weighed) {
+  const TickRecord& t = run.last();
   std::string words = formatted("It wanted: %.2f m/s and to turn %.2f rad/s", t.wanted.v_mps, t.wanted.w_radps);
   if (!t.input.has_goal) return words + "; it has no goal.\n";
-  if (!weighed.alternatives.empty())
-    words += ", " + chosen_in_words(*loop.motion().rollouts(), weighed.resolve, around);
+  if (!weighed.alternatives.empty()) words += ", " + chosen_in_words(run, weighed.resolve);
   return words + ".\n";
 }
 
@@ -249,16 +239,13 @@ std::string permitted(const TickRecord& t) {
          in_words(t.verdict.reasons) + (t.wheels.fault.is_told() ? "; " + describe(t.wheels.fault) : "") + ".\n";
 }
 
-std::string otherwise(const TickRecord& t, const ControlLoop& loop, const RobotModel& model, const Weighed& weighed,
-                      const BodiesAbout& around) {
-  const double braking_m = t.wanted.v_mps * t.wanted.v_mps / (2.0 * model.limits.brake_mps2);
+std::string otherwise(const RelivedRun& run, const Weighed& weighed) {
+  const TickRecord& t = run.last();
+  const double braking_m = t.wanted.v_mps * t.wanted.v_mps / (2.0 * run.recorded().setup().model.limits.brake_mps2);
   if (has(t.verdict.reasons, Reason::kStopZone) && std::isfinite(t.verdict.gap_m))
     return formatted("Otherwise: at %.2f m/s it needs %.2f m to brake, and %.2f m are free.\n",
                      std::fabs(t.wanted.v_mps), braking_m, t.verdict.gap_m);
-  const std::string next =
-      t.input.has_goal && !weighed.alternatives.empty()
-          ? next_best_in_words(*loop.motion().rollouts(), weighed.resolve, weighed.alternatives, around)
-          : "";
+  const std::string next = t.input.has_goal ? next_best_in_words(run, weighed) : "";
   return "Otherwise: " + (next.empty() ? "nothing else was weighed" : next) + ".\n";
 }
 
@@ -295,24 +282,20 @@ void write_alternatives(const std::vector<motion::Alternative>& alternatives, co
   const auto number = [&table](float value) { table.number(static_cast<double>(value)); };
   for (const motion::Alternative& a : alternatives) {
     table.text(names_of(a.trajectory.proposal).first).count(a.trajectory.perturbed ? 1 : 0);
-    number(a.cost.total());
-    number(a.cost.time);
+    for (const float value : {a.cost.total(), a.cost.time}) number(value);
     for (const auto& term : terms_of(a.cost)) number(term.second);
     const motion::RobotState& end = a.driven.back();
-    for (const float value : {end.x, end.y, end.heading, end.v}) number(value);
-    number(a.trajectory.commands.front().v);
-    number(a.trajectory.commands.front().w);
+    const motion::Command& first = a.trajectory.commands.front();
+    for (const float value : {end.x, end.y, end.heading, end.v, first.v, first.w}) number(value);
     table.end_row();
   }
   (void)table.close();
 }
 
-std::string why_words(const TickRecord& tick, const ControlLoop& loop, const RobotModel& model,
-                      const Weighed& weighed) {
-  const auto tracks = loop.tracker().tracks();
-  const BodiesAbout around{{tracks.begin(), tracks.size()}, model.footprint};
-  return doing(tick, model.drive) + saw(tick, around.tracks) + expected(tick, around) +
-         wanted(tick, loop, weighed, around) + permitted(tick) + otherwise(tick, loop, model, weighed, around);
+std::string why_words(const RelivedRun& run, const Weighed& weighed) {
+  const TickRecord& tick = run.last();
+  return doing(tick, run.recorded().setup().model.drive) + saw(tick, run.loop().tracker().tracks()) + expected(run) +
+         wanted(run, weighed) + permitted(tick) + otherwise(run, weighed);
 }
 
 }  // namespace jaywalk

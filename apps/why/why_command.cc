@@ -25,11 +25,6 @@ WhyOptions why_options;
 
 constexpr double kShown_m = 8.0;  // to each side of the robot
 
-[[noreturn]] void refuse_time(const RelivedRun& run, Time first, Time last) {
-  const std::string span = formatted("give a time from %.2f to %.2f s", to_seconds(first), to_seconds(last));
-  throw StartupError(run.file().string() + ": has nothing of that time", span);
-}
-
 /// How robot and bodies went until the moment.
 struct Past {
   DrivenWay driven;
@@ -39,9 +34,13 @@ struct Past {
   void add(const RelivedRun& run) {
     const TickRecord& t = run.last();
     driven.add(t.now, t.pose.map_from_robot);
-    if (const motion::GoalRollouts* motion = run.loop().motion().rollouts()) resolve.note(motion->decision());
+    if (const motion::GoalRollouts* motion = run.loop().motion().rollouts()) note(motion->decision());
     for (const Track& track : run.loop().tracker().tracks())
       bodies.add(track.id, t.now, track.position_in_map, track.radius_m, track.moving);
+  }
+  void note(const motion::Decision& decision) {
+    const motion::Proposal proposal = decision.trajectory.proposal;
+    if (proposal != motion::Proposal::kLast && decision.at != resolve.at) resolve = {proposal, decision.at};
   }
   /// Of the tracks followed now.
   [[nodiscard]] std::vector<Trail> trails(const RelivedRun& run) const {
@@ -54,12 +53,6 @@ struct Past {
   }
 };
 
-void tell(Progress& progress, Time first, Time now, double until_s) {
-  if (!progress.is_due()) return;
-  const std::string words = formatted("%.0f of %.0f s", to_seconds(now), until_s);
-  progress.show(to_seconds(now - first) / (until_s - to_seconds(first)), words);
-}
-
 /// Lives through it up to that time.
 Past relive(RelivedRun& run, double until_s) {
   Past past;
@@ -68,11 +61,15 @@ Past relive(RelivedRun& run, double until_s) {
   const Time first = run.last().now;
   for (; any && to_seconds(run.last().now) < until_s - 1e-6; any = run.step()) {
     past.add(run);
-    tell(progress, first, run.last().now, until_s);
+    const Time now = run.last().now;
+    progress.show(to_seconds(now - first) / (until_s - to_seconds(first)),
+                  formatted("%.0f of %.0f s", to_seconds(now), until_s));
   }
   if (any && until_s < to_seconds(first) - 1e-6)
     while (run.step()) any = false;
-  if (!any) refuse_time(run, first, run.last().now);
+  if (!any)
+    throw StartupError(run.recorded().file().string() + ": has nothing of that time",
+                       formatted("give a time from %.2f to %.2f s", to_seconds(first), to_seconds(run.last().now)));
   past.add(run);
   return past;
 }
@@ -89,12 +86,10 @@ void show_decision(const RelivedRun& run, const Weighed& weighed, PictureScene& 
 PictureScene scene_of(const RelivedRun& run, const Past& past, const Weighed& weighed) {
   const TickRecord& t = run.last();
   const ControlLoop& loop = run.loop();
-  const auto tracks = loop.tracker().tracks();
-  const std::string title = formatted("why, at %.2f s", to_seconds(t.now));
   BusiestMoment moment;
-  moment.consider(loop.plan(), run.planner(), {tracks.begin(), tracks.size()}, t.pose.map_from_robot);
+  moment.consider(loop.plan(), run.planner(), loop.tracker().tracks(), t.pose.map_from_robot);
   PictureScene scene;
-  scene.title = title;
+  scene.title = formatted("why, at %.2f s", to_seconds(t.now));
   const std::string reasons = to_string(t.verdict.reasons, t.verdict.faulty_scanners);
   scene.facts = {{"reasons", reasons.empty() ? "none" : reasons}};
   scene.driven = past.driven.poses();
@@ -104,7 +99,7 @@ PictureScene scene_of(const RelivedRun& run, const Past& past, const Weighed& we
   scene.moment = moment.moment();
   show_decision(run, weighed, scene);
   if (t.input.has_goal) scene.goal = t.input.goal_in_map;
-  scene.footprint = run.setup().model.footprint;
+  scene.footprint = run.recorded().setup().model.footprint;
   const Vec2 here = t.pose.map_from_robot.position(), reach{kShown_m, kShown_m};
   scene.extent = {here - reach, here + reach};
   return scene;
@@ -134,7 +129,7 @@ int run_why(const WhyOptions& options) {
   const Weighed weighed = weighed_by(run, past);
   const std::optional<std::filesystem::path> drawn = save(scene_of(run, past, weighed), options.out);
   if (!weighed.alternatives.empty()) write_alternatives(weighed.alternatives, (options.out / "why.csv").string());
-  std::fputs(why_words(run.last(), run.loop(), run.setup().model, weighed).c_str(), stdout);
+  std::fputs(why_words(run, weighed).c_str(), stdout);
   std::fputs(run.remarks().c_str(), stderr);
   if (drawn) std::printf("See %s\n", drawn->c_str());
   return 0;

@@ -117,6 +117,12 @@ CellMap boxes(std::int32_t side, MapRandom& random) {
   return map;
 }
 
+struct Kind {
+  const char* name;
+  CellMap (*map)(std::int32_t side, MapRandom& random);
+};
+constexpr Kind kKinds[] = {{"rooms", rooms}, {"cave", cave}, {"maze", maze}, {"boxes", boxes}};  // as MapKind has them
+
 }  // namespace
 
 std::int32_t MapRandom::below(std::int32_t n) {
@@ -126,18 +132,10 @@ std::int32_t MapRandom::below(std::int32_t n) {
   return static_cast<std::int32_t>((state_ >> 32) % static_cast<std::uint64_t>(n));
 }
 
-const char* name_of(MapKind kind) {
-  constexpr const char* kNames[] = {"rooms", "cave", "maze", "boxes"};
-  return kNames[static_cast<std::size_t>(kind)];
-}
+const char* name_of(MapKind kind) { return kKinds[static_cast<std::size_t>(kind)].name; }
 
 CellMap random_map(MapKind kind, std::int32_t side, MapRandom& random) {
-  switch (kind) {
-    case MapKind::kRooms: return rooms(side, random);
-    case MapKind::kCave: return cave(side, random);
-    case MapKind::kMaze: return maze(side, random);
-    default: return boxes(side, random);
-  }
+  return kKinds[static_cast<std::size_t>(kind)].map(side, random);
 }
 
 }  // namespace jaywalk

@@ -17,22 +17,23 @@ import csv
 import math
 
 import label_walkers as lw
+from command_line import reading  # label_walkers puts its folder on the path
 
 CELL_M, PASSED, KNOWN_S, HALF_S = 0.1, 0.7, 1.0, 0.5
 FARTHEST_M, UNSEEN_SCANS = 5.0, 3
 
 
+def in_map(pose, place):
+    x, y, h = pose
+    return x + math.cos(h) * place[0] - math.sin(h) * place[1], y + math.sin(h) * place[0] + math.cos(h) * place[1]
+
+
 def poses_at(path, mount, times):
-    with lw.reading(path, "robot.csv of a run"):
-        with open(path) as file:
-            rows = [(float(r["t_s"]), *(float(r[f"est_{k}"]) for k in ("x_m", "y_m", "heading_rad"))) for r in csv.DictReader(file)]
-    stamps = [row[0] for row in rows]
-    mx, my, myaw = mount
-    out = []
-    for t in times:
-        _, x, y, h = rows[min(bisect.bisect_left(stamps, t - 1e-6), len(rows) - 1)]
-        out.append((x + math.cos(h) * mx - math.sin(h) * my, y + math.sin(h) * mx + math.cos(h) * my, h + myaw))
-    return out
+    """Of the laser in the map."""
+    with reading(path, "robot.csv of a run"), open(path) as file:
+        rows = [[float(r[k]) for k in ("t_s", "est_x_m", "est_y_m", "est_heading_rad")] for r in csv.DictReader(file)]
+    robots = (rows[min(bisect.bisect_left(rows, t - 1e-6, key=lambda row: row[0]), len(rows) - 1)][1:] for t in times)
+    return [(*in_map(robot, mount), robot[2] + mount[2]) for robot in robots]
 
 
 def ends_of(scan, pose):

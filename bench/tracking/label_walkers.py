@@ -18,13 +18,12 @@ label_walkers.py SCAN.txt.gz > LABELS.csv
 bench/tracking/labels: standing_robot_people_walk.csv as above, standing_robot_people_walk_2.csv with --farthest 8 --every 2.
 """
 import argparse
-import gzip
 import math
 import pathlib
 import sys
 
 sys.path.append(str(pathlib.Path(__file__).resolve().parent.parent))
-from command_line import at_line, reading, refuse
+from command_line import read_lines, refuse
 
 STEP_M, SHARE, BEFORE_M, FEWEST = 0.1, 1 / 6, 0.25, 3
 LEG_JUMP_M, STRIDE_M, LEG_RADIUS_M, WIDEST_M = 0.12, 0.55, 0.05, 0.85
@@ -39,12 +38,7 @@ def scan_of(words):
 
 
 def read_scans(path):
-    scans = []
-    with reading(path, "lines 't angle_min angle_inc range_min range_max n r1..rn'"):
-        with (gzip.open if path.endswith(".gz") else open)(path, "rt") as lines:
-            for number, line in enumerate(lines, 1):
-                if line.strip() and line[0] != "#":
-                    scans.append(at_line(path, number, scan_of, line.split()))
+    scans = read_lines(path, "lines 't angle_min angle_inc range_min range_max n r1..rn'", scan_of)
     if len({len(ranges) for _, _, _, ranges in scans}) != 1:
         refuse(f"{path}: {'scans of several lengths' if scans else 'no scan in it'}", "give a recording of one laser")
     return scans
@@ -134,18 +128,24 @@ def walks(named, k, name, width, half_s_scans):
     return width < WIDEST_M and all(ends) and math.dist(ends[0][0], ends[1][0]) > WALKED_M
 
 
-def main(path, farthest_m, every):
+def labels_of(path, farthest_m):
+    """Of every scan: its time, and (name, place, walks)."""
     scans = read_scans(path)
     behind = background(scans)
     period_s = (scans[-1][0] - scans[0][0]) / max(1, len(scans) - 1)
     if not period_s > 0.01:
         refuse(f"{path}: no scans one after the other", "give a recording of a laser")
     named = name_them([people(foreground(scan, behind, farthest_m)) for scan in scans], round(UNSEEN_S / period_s))
+    for k, row in enumerate(named):
+        yield scans[k][0], [(name, place, walks(named, k, name, width, round(HALF_S / period_s))) for name, place, width in row]
+
+
+def main(path, farthest_m, every):
+    labels = list(labels_of(path, farthest_m))
     print("t_bag,id,x,y,walks")
-    for k in range(0, len(scans), every):
-        for name, (x, y), width in named[k]:
-            walking = walks(named, k, name, width, round(HALF_S / period_s))
-            print(f"{scans[k][0]:.6f},{name},{x:.3f},{y:.3f},{int(walking)}")
+    for t, row in labels[::every]:
+        for name, (x, y), walking in row:
+            print(f"{t:.6f},{name},{x:.3f},{y:.3f},{int(walking)}")
 
 
 if __name__ == "__main__":

@@ -27,8 +27,10 @@ void row(const char* what, double value, const char* unit) {
 }
 void row(const char* what, std::size_t value) { std::printf("| %-44s | %10zu |       |\n", what, value); }
 
+void head(const char* what) { std::printf("| %-44s | %10s | %-5s |\n|---|---|---|\n", what, "", ""); }
+
 void print(const char* who, const TrackScore& score, double minutes) {
-  std::printf("| %-44s | %10s | %-5s |\n|---|---|---|\n", who, "", "");
+  head(who);
   row("targets in view, all frames", score.targets());
   row("found", score.matches());
   if (score.targets() > 0)
@@ -51,7 +53,7 @@ void print(const char* who, const TrackScore& score, double minutes) {
 void print(const char* what, const std::vector<PosePair>& poses) {
   const RelativeError error = relative_error(poses, 10.0, 1.0);
   if (error.stretches == 0) return;
-  std::printf("| %-44s | %10s | %-5s |\n|---|---|---|\n", what, "", "");
+  head(what);
   row("stretches of 10 m", error.stretches);
   row("translation, median", error.translation_percent, "%");
   row("heading, median", error.heading_deg, "deg");
@@ -60,7 +62,7 @@ void print(const char* what, const std::vector<PosePair>& poses) {
 
 void print(const Innovations& innovations) {
   if (innovations.count() == 0) return;
-  std::printf("| %-44s | %10s | %-5s |\n|---|---|---|\n", "innovations of tracks that move", "", "");
+  head("innovations of tracks that move");
   row("how many", innovations.count());
   row("normalised and squared, mean; 2 is right", innovations.mean(), "");
   row("95 % bounds of that: 2 and 2 less or more", innovations.mean_bound(), "");
@@ -82,9 +84,7 @@ void frames(const Options& o, const RunFolder& run, const FrameSink& frame) {
 /// NaN lies outside too.
 void require_within(const char* option, double value, double least, double most) {
   if (value >= least && value <= most) return;
-  char text[96];
-  std::snprintf(text, sizeof text, "%s: %g is outside %g to %g", option, value, least, most);
-  throw StartupError(text, "see --help for what it is");
+  throw StartupError(formatted("%s: %g is outside %g to %g", option, value, least, most), "see --help for what it is");
 }
 
 void check(const Options& o) {
@@ -98,12 +98,6 @@ void check(const Options& o) {
   require_within("--between", o.between_s, 0.0, 60.0);
   require_within("--labels-late", o.late_s, 0.0, 10.0);
   for (const double part : o.laser_mount) require_within("--laser-mount", part, -100.0, 100.0);
-}
-
-/// Beams end on the edges of wide movers, farther from their middles than narrower ones reach.
-void doubt_the_radius(double told_m) {
-  std::fprintf(stderr, "jaywalk_track_bench: no mover was ever in view; are they as wide as --radius %g says?\n",
-               told_m);
 }
 
 void score(const Options& o) {
@@ -122,7 +116,10 @@ void score(const Options& o) {
     any.add(t_s, targets, run.tracks_at(t_s, false));
     right.add(t_s, targets, run.tracks_at(t_s, false));
   });
-  if (o.simulated() && there > 0 && moving.targets() == 0) doubt_the_radius(o.view.radius_m);
+  // Beams end on the edges of wide movers, farther from their middles than narrower ones reach.
+  if (o.simulated() && there > 0 && moving.targets() == 0)
+    std::fprintf(stderr, "jaywalk_track_bench: no mover was ever in view; are they as wide as --radius %g says?\n",
+                 o.view.radius_m);
   if (o.reference.empty()) print("tracks that move", moving, run.minutes());
   if (any.targets() > 0) print("all tracks; standing ones are no error", any, run.minutes());
   if (o.simulated()) print("who walks by tracks that move, who stands by any", right, run.minutes());
@@ -159,12 +156,5 @@ int main(int argc, char** argv) {
   app.add_option("--match", o.rules.match_m, "m: a track this near is the target's")->capture_default_str();
   app.add_option("--range", o.view.range_m, "m: simulated movers farther off are not in view")->capture_default_str();
   app.add_option("--radius", o.view.radius_m, "m: of simulated movers")->capture_default_str();
-  if (const auto ended = jaywalk::bench::ended_by_command_line(app, argc, argv)) return *ended;
-  try {
-    jaywalk::bench::score(o);
-  } catch (const jaywalk::StartupError& error) {
-    std::fprintf(stderr, "jaywalk_track_bench: %s\n", error.what());
-    return 2;
-  }
-  return 0;
+  return jaywalk::bench::run(app, argc, argv, [&o] { jaywalk::bench::score(o); });
 }

@@ -12,14 +12,13 @@ Every recording is lived through by build/bench/tracking/jaywalk_relive.
 import argparse
 import collections
 import csv
-import gzip
 import math
 import pathlib
 import statistics
 
 import label_beside
 import label_walkers
-from command_line import all_of, said_by  # label_walkers puts its folder on the path
+from command_line import all_of, opened, said_by  # label_walkers puts its folder on the path
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 RELIVE = ROOT / "build/bench/tracking/jaywalk_relive"
@@ -38,19 +37,17 @@ def relive(options, name, *files, mount=(0.0, 0.0, 0.0)):
     return out
 
 
+def rows_of(file):
+    with opened(file) as lines:
+        return list(csv.DictReader(lines))
+
+
 def tracks_of(out):
     """Of every scan: (name, place, moving)."""
     scans = collections.defaultdict(list)
-    with open(out / "tracks.csv") as file:
-        for row in csv.DictReader(file):
-            scans[float(row["t_s"])].append((int(row["id"]), (float(row["x_m"]), float(row["y_m"])), row["moving"] == "1"))
+    for row in rows_of(out / "tracks.csv"):
+        scans[float(row["t_s"])].append((int(row["id"]), (float(row["x_m"]), float(row["y_m"])), row["moving"] == "1"))
     return scans
-
-
-def pedestrians_of(out):
-    """The names of tracks taken for pedestrians, scan after scan."""
-    with open(out / "tracks.csv") as file:
-        return [int(row["id"]) for row in csv.DictReader(file) if row["pedestrian"] == "1"]
 
 
 def at(scans, t):
@@ -66,7 +63,7 @@ def nearest(tracks, place, within_m, moving=True):
 
 def backwards(options, file):
     """The same scans, the last one first."""
-    with gzip.open(options.data / file, "rt") as lines:
+    with opened(options.data / file) as lines:
         scans = [line.split(" ", 1) for line in lines if line[0] != "#"]
     ends_s = float(scans[0][0]) + float(scans[-1][0])
     options.out.mkdir(parents=True, exist_ok=True)
@@ -85,7 +82,7 @@ def nobody(options):
         false, minutes, pedestrians, at_a_time = 0, 0.0, 0, []
         for out in outs:
             scans = tracks_of(out)
-            names = pedestrians_of(out)
+            names = [int(row["id"]) for row in rows_of(out / "tracks.csv") if row["pedestrian"] == "1"]  # scan after scan
             pedestrians += len(set(names))
             at_a_time.append(len(names) / len(scans))
             false += len({name for tracks in scans.values() for name, _, moves in tracks if moves})
@@ -95,16 +92,10 @@ def nobody(options):
 
 def dense_labels(options, name, farthest_m):
     """Trails of those who walk, by name: [(t, place in the laser's frame, walks)], every scan."""
-    scans = label_walkers.read_scans(str(options.data / f"static/{name}.scan.txt.gz"))
-    behind = label_walkers.background(scans)
     trails = collections.defaultdict(list)
-    period_s = (scans[-1][0] - scans[0][0]) / (len(scans) - 1)
-    found = [label_walkers.people(label_walkers.foreground(scan, behind, farthest_m)) for scan in scans]
-    named = label_walkers.name_them(found, round(label_walkers.UNSEEN_S / period_s))
-    half_s_scans = round(label_walkers.HALF_S / period_s)
-    for k, row in enumerate(named):
-        for person, place, width in row:
-            trails[person].append((scans[k][0], place, label_walkers.walks(named, k, person, width, half_s_scans)))
+    for t, row in label_walkers.labels_of(options.data / f"static/{name}.scan.txt.gz", farthest_m):
+        for person, place, walks in row:
+            trails[person].append((t, place, walks))
     return [trail for trail in trails.values() if any(walks for _, _, walks in trail)]
 
 
@@ -149,13 +140,8 @@ def head_on(options):
                   f"{len(set(names) - {None})} | {len(set(moving) - {None})} | {first:.1f} |", flush=True)
 
 
-def robot_poses(out, times, mount):
-    return dict(zip(times, label_beside.poses_at(out / "robot.csv", mount, times)))
-
-
-def in_map(pose, place):
-    x, y, h = pose
-    return x + math.cos(h) * place[0] - math.sin(h) * place[1], y + math.sin(h) * place[0] + math.cos(h) * place[1]
+def robot_poses(out, times):
+    return dict(zip(times, label_beside.poses_at(out / "robot.csv", MOUNT, times)))
 
 
 def wheelchair(options):
@@ -163,17 +149,16 @@ def wheelchair(options):
     out = relive(options, "wheelchair", *files, mount=MOUNT)
     scans = tracks_of(out)
     walking = collections.defaultdict(list)  # by time, in the laser's frame: another run's map lies elsewhere
-    with open(WALK_BESIDE) as file:
-        for r in csv.DictReader(file):
-            if r["walks"] == "1":
-                walking[float(r["t_bag"])].append((float(r["x"]), float(r["y"])))
-    poses = robot_poses(out, list(walking), MOUNT)
-    found = {t: [nearest(at(scans, t), in_map(poses[t], p), MATCH_M) is not None for p in places] for t, places in walking.items()}
+    for r in rows_of(WALK_BESIDE):
+        if r["walks"] == "1":
+            walking[float(r["t_bag"])].append((float(r["x"]), float(r["y"])))
+    poses = robot_poses(out, list(walking))
+    found = {t: [nearest(at(scans, t), label_beside.in_map(poses[t], p), MATCH_M) is not None for p in places] for t, places in walking.items()}
     seen, every = {t: any(row) for t, row in found.items()}, [one for row in found.values() for one in row]
-    with gzip.open(options.data / "wheelchair/people.csv.gz", "rt") as file:
-        labels = [(float(r["t_bag"]) - LABELS_LATE_S, (float(r["x"]), float(r["y"]))) for r in csv.DictReader(file)]
-    poses = robot_poses(out, [t for t, _ in labels], MOUNT)
-    stands = sum(nearest(at(scans, t), in_map(poses[t], p), STANDS_M, False) is not None for t, p in labels)
+    people = rows_of(options.data / "wheelchair/people.csv.gz")
+    labels = [(float(r["t_bag"]) - LABELS_LATE_S, (float(r["x"]), float(r["y"]))) for r in people]
+    poses = robot_poses(out, [t for t, _ in labels])
+    stands = sum(nearest(at(scans, t), label_beside.in_map(poses[t], p), STANDS_M, False) is not None for t, p in labels)
     moves = len({name for tracks in scans.values() for name, _, m in tracks if m})
     print("\n| beside a driving wheelchair | |\n|---|---|")
     print(f"| scans with somebody walking within 5 m that show one moving there | {sum(seen.values())} of {len(seen)}, {100 * sum(seen.values()) / len(seen):.0f} % |")

@@ -118,13 +118,8 @@ int main(int argc, char** argv) {
   app.add_option("ODOMETRY", options.odometry, "beside SCAN.txt")->check(CLI::ExistingFile);
   app.add_option("--out", options.out, "folder for robot.csv and tracks.csv")->required();
   app.add_option("--laser-mount", mount, "X,Y,YAW: m and rad, in the robot's frame")->delimiter(',')->expected(3);
-  if (const auto ended = jaywalk::bench::ended_by_command_line(app, argc, argv)) return *ended;
-  options.robot_from_laser = {mount[0], mount[1], mount[2]};
-  try {
+  return jaywalk::bench::run(app, argc, argv, [&] {
+    options.robot_from_laser = {mount[0], mount[1], mount[2]};
     jaywalk::bench::relive(options);
-  } catch (const jaywalk::StartupError& error) {
-    std::fprintf(stderr, "jaywalk_relive: %s\n", error.what());
-    return 2;
-  }
-  return 0;
+  });
 }

@@ -1,7 +1,6 @@
 #include "bench/tracking/run_folder.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 
@@ -21,6 +20,15 @@ std::string_view cell_of(std::string_view line, std::size_t k) {
   const std::string_view cell = line.substr(0, line.find(','));
   const std::size_t first = cell.find_first_not_of(" \t"), last = cell.find_last_not_of(" \t");
   return first == std::string_view::npos ? std::string_view() : cell.substr(first, last + 1 - first);
+}
+
+std::optional<double> number_of(std::string_view cell) {
+  const auto value = number_in<double>(cell);
+  return value && std::fabs(*value) <= kMost ? value : std::nullopt;
+}
+
+std::optional<double> number_where_known(std::string_view cell) {
+  return cell.empty() || cell == "nan" ? std::numeric_limits<double>::quiet_NaN() : number_of(cell);
 }
 
 std::size_t cells_in(std::string_view line) {
@@ -62,52 +70,37 @@ void NumberTable::refuse(std::size_t line, const std::string& cause, const std::
   throw StartupError(file_ + ":" + std::to_string(line) + ": " + cause, remedy);
 }
 
-bool NumberTable::has(std::string_view column) const {
-  return std::find(columns_.begin(), columns_.end(), column) != columns_.end();
-}
-
 std::size_t NumberTable::place_of(std::string_view column) const {
-  if (!has(column)) refuse(1, "no column \"" + std::string(column) + "\"", "name it in the first line");
-  return static_cast<std::size_t>(std::find(columns_.begin(), columns_.end(), column) - columns_.begin());
+  const auto at = std::ranges::find(columns_, column);
+  if (at == columns_.end()) refuse(1, "no column \"" + std::string(column) + "\"", "name it in the first line");
+  return static_cast<std::size_t>(at - columns_.begin());
 }
 
-double NumberTable::number_in(const Row& row, std::string_view cell, std::string_view column) const {
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-  if (error != std::errc() || end != cell.data() + cell.size() || !(std::fabs(value) <= kMost)) {
-    refuse(row.line, "'" + shown(cell) + "' in the column " + std::string(column), "give metres and seconds");
+template <class T>
+std::vector<T> NumberTable::read(std::string_view column, std::optional<T> (*value_of)(std::string_view cell),
+                                 const char* remedy) const {
+  const std::size_t place = place_of(column);
+  std::vector<T> values;
+  for (const Row& row : rows_) {
+    const std::string_view cell = cell_of(row.text, place);
+    const std::optional<T> value = value_of(cell);
+    if (!value) refuse(row.line, "'" + shown(cell) + "' in the column " + std::string(column), remedy);
+    values.push_back(*value);
   }
-  return value;
+  return values;
 }
 
 std::vector<double> NumberTable::column(std::string_view name) const {
-  const std::size_t place = place_of(name);
-  std::vector<double> values;
-  for (const Row& row : rows_) values.push_back(number_in(row, cell_of(row.text, place), name));
-  return values;
+  return read<double>(name, number_of, "give metres and seconds");
 }
 
 std::vector<double> NumberTable::column_where_known(std::string_view name) const {
-  const std::size_t place = place_of(name);
-  std::vector<double> values;
-  for (const Row& row : rows_) {
-    const std::string_view cell = cell_of(row.text, place);
-    const bool unknown = cell.empty() || cell == "nan";
-    values.push_back(unknown ? std::numeric_limits<double>::quiet_NaN() : number_in(row, cell, name));
-  }
-  return values;
+  return read<double>(name, number_where_known, "give metres and seconds");
 }
 
 std::vector<std::uint32_t> NumberTable::names(std::string_view column) const {
-  const std::size_t place = place_of(column);
-  std::vector<std::uint32_t> values;
-  for (const Row& row : rows_) {
-    const std::string_view cell = cell_of(row.text, place);
-    const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), values.emplace_back());
-    if (error == std::errc() && end == cell.data() + cell.size()) continue;
-    refuse(row.line, "'" + shown(cell) + "' in the column " + std::string(column), "give whole numbers from 0 on");
-  }
-  return values;
+  return read<std::uint32_t>(
+      column, [](std::string_view cell) { return number_in<std::uint32_t>(cell); }, "give whole numbers from 0 on");
 }
 
 RunFolder::RunFolder(const std::filesystem::path& folder) {
@@ -147,12 +140,6 @@ const RunFolder::Tick& RunFolder::tick_at(double t_s) const {
   return at == ticks_.end() ? ticks_.back() : *at;
 }
 
-Pose2 RunFolder::estimate_at(double t_s) const { return tick_at(t_s).estimate; }
-
-std::optional<Pose2> RunFolder::truth_at(double t_s) const {
-  return has_truth_ ? std::optional(tick_at(t_s).truth) : std::nullopt;
-}
-
 void RunFolder::require_own_times(const std::string& file, const std::vector<double>& times) const {
   const double first = ticks_.front().t_s - kNearRunS, last = ticks_.back().t_s + kNearRunS;
   const auto within = std::count_if(times.begin(), times.end(), [&](double t) { return t >= first && t <= last; });
@@ -161,8 +148,6 @@ void RunFolder::require_own_times(const std::string& file, const std::vector<dou
       file + ": " + std::to_string(within) + " of its " + std::to_string(times.size()) + " times lie in the run",
       "give the file that belongs to what was replayed");
 }
-
-double RunFolder::minutes() const { return (ticks_.back().t_s - ticks_.front().t_s) / 60.0; }
 
 std::vector<double> RunFolder::track_times() const {
   std::vector<double> out;

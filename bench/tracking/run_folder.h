@@ -1,5 +1,6 @@
 #pragma once
 // Run folder (docs/reference/outputs.md) and its tables, as frames to score, and poses to compare it with.
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -9,7 +10,6 @@
 #include <string_view>
 #include <vector>
 
-#include "bench/tracking/relative_pose.h"
 #include "bench/tracking/track_score.h"
 
 namespace jaywalk::bench {
@@ -21,7 +21,7 @@ class NumberTable {
   explicit NumberTable(const std::filesystem::path& file);
 
   [[nodiscard]] std::size_t rows() const { return rows_.size(); }
-  [[nodiscard]] bool has(std::string_view column) const;
+  [[nodiscard]] bool has(std::string_view column) const { return std::ranges::count(columns_, column) > 0; }
   /// Throws where there is no such column, and for a cell that is no number of a place, time or speed.
   [[nodiscard]] std::vector<double> column(std::string_view name) const;
   /// The same; NaN (unknown) for cells that are empty or "nan".
@@ -35,7 +35,10 @@ class NumberTable {
     std::string text;
   };
   [[nodiscard]] std::size_t place_of(std::string_view column) const;
-  [[nodiscard]] double number_in(const Row& row, std::string_view cell, std::string_view column) const;
+  /// The column's cells as `value_of` has them; throws with `remedy` where it has none.
+  template <class T>
+  [[nodiscard]] std::vector<T> read(std::string_view column, std::optional<T> (*value_of)(std::string_view cell),
+                                    const char* remedy) const;
   [[noreturn]] void refuse(std::size_t line, const std::string& cause, const std::string& remedy) const;
 
   std::string file_;
@@ -51,14 +54,16 @@ class RunFolder {
   /// The tracks of the scan nearest to `t_s`; none where no scan within 30 ms left any.
   [[nodiscard]] std::vector<Hypothesis> tracks_at(double t_s, bool moving_only) const;
   /// Where the controller thought it was in the first tick at or after `t_s`; the last pose after the end.
-  [[nodiscard]] Pose2 estimate_at(double t_s) const;
+  [[nodiscard]] Pose2 estimate_at(double t_s) const { return tick_at(t_s).estimate; }
   /// Where it really was at the end of that tick; nothing for a replay.
-  [[nodiscard]] std::optional<Pose2> truth_at(double t_s) const;
+  [[nodiscard]] std::optional<Pose2> truth_at(double t_s) const {
+    return has_truth_ ? std::optional(tick_at(t_s).truth) : std::nullopt;
+  }
   [[nodiscard]] bool has_truth() const { return has_truth_; }  ///< false for a replay, and a run on a robot
   /// Throws StartupError where most of the times that stand in `file` do not lie in the run, or there are none: another
   /// recording's would be scored as if they belonged.
   void require_own_times(const std::string& file, const std::vector<double>& times) const;
-  [[nodiscard]] double minutes() const;
+  [[nodiscard]] double minutes() const { return (ticks_.back().t_s - ticks_.front().t_s) / 60.0; }
   /// Every time at which there are tracks, rising.
   [[nodiscard]] std::vector<double> track_times() const;
   [[nodiscard]] std::vector<PosePair> poses() const;  ///< estimate and truth, a tick each; empty for a replay

@@ -9,19 +9,11 @@ the centimetre; those of which either file has two that are alike, or two that s
 """
 import argparse
 import collections
-import gzip
 import pathlib
 import sys
 
 sys.path.append(str(pathlib.Path(__file__).resolve().parent.parent))
-from command_line import at_line, reading, refuse
-
-
-def read_lines(path, expected, understand):
-    """What `understand` makes of each line's words."""
-    with reading(path, expected), (gzip.open if path.endswith(".gz") else open)(path, "rt") as file:
-        rows = [(k, line.split()) for k, line in enumerate(file, 1) if line.strip() and line[0] != "#"]
-    return [at_line(path, k, understand, words) for k, words in rows]
+from command_line import read_lines, refuse
 
 
 def scan_of(w):

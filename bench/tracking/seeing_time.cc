@@ -74,16 +74,18 @@ void row(const char* what, const Distribution& figure) {
 }  // namespace jaywalk::bench
 
 int main(int argc, char** argv) {
+  using namespace jaywalk::bench;
   std::uint32_t scans = 3000;
   CLI::App app("Times localisation and tracking among 64 walkers, 1,081 beams a scan", "jaywalk_seeing_time");
   app.add_option("--scans", scans, "how many to time")->check(CLI::Range(1, 1000000))->capture_default_str();
-  if (const auto ended = jaywalk::bench::ended_by_command_line(app, argc, argv)) return *ended;
-  const jaywalk::bench::Figures figures = jaywalk::bench::measure(scans);
-  std::printf("| %-30s | %8s | %8s | %8s |\n|---|---|---|---|\n", "a scan", "p50", "p99", "max");
-  jaywalk::bench::row("localisation, ms", figures.localizing_ms);
-  jaywalk::bench::row("tracking, ms", figures.tracking_ms);
-  jaywalk::bench::row("both, ms", figures.seeing_ms);
-  jaywalk::bench::row("a step of 64 social movers, ms", jaywalk::bench::social_steps_ms(scans));
-  jaywalk::bench::row("tracks", figures.tracks);
-  jaywalk::bench::row("moving ones", figures.moving);
+  return run(app, argc, argv, [&] {
+    const Figures figures = measure(scans);
+    std::printf("| %-30s | %8s | %8s | %8s |\n|---|---|---|---|\n", "a scan", "p50", "p99", "max");
+    row("localisation, ms", figures.localizing_ms);
+    row("tracking, ms", figures.tracking_ms);
+    row("both, ms", figures.seeing_ms);
+    row("a step of 64 social movers, ms", social_steps_ms(scans));
+    row("tracks", figures.tracks);
+    row("moving ones", figures.moving);
+  });
 }

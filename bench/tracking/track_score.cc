@@ -21,13 +21,35 @@ class NoPlanner final : public Planner {
   Plan none_;
 };
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr double kAwayS = 1.0;  // whoever is out of view this long comes into view again
 constexpr double kRoundOffS = 1e-6;
 constexpr double kKeepsMps = 0.02;  // recorded velocities are rounded, and movers turn gently
 
-double share(std::size_t part, std::size_t whole) {
-  return whole == 0 ? kNone : static_cast<double>(part) / static_cast<double>(whole);
+constexpr double kStepM = 0.05;
+
+/// Metres driven until each pair.
+std::vector<double> way_m(const std::vector<PosePair>& drive) {
+  std::vector<double> way;
+  Vec2 last = drive.empty() ? Vec2{} : drive.front().truth.position();
+  double sum = 0.0;
+  for (const PosePair& p : drive) {
+    const double step = distance(last, p.truth.position());
+    if (step >= kStepM) sum += step, last = p.truth.position();
+    way.push_back(sum);
+  }
+  return way;
+}
+
+double median(std::vector<double>& values) {
+  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// The estimate's motion from `a` to `b`, seen from where the true one leads.
+Pose2 motion_error(const PosePair& a, const PosePair& b) {
+  return inverse(inverse(a.truth) * b.truth) * (inverse(a.estimate) * b.estimate);
 }
 
 }  // namespace
@@ -44,10 +66,6 @@ void Innovations::add(std::span<const Track> tracks) {
   }
   hits_before_ = std::move(hits);
 }
-
-double Innovations::mean() const { return sum_ / static_cast<double>(count_); }
-double Innovations::mean_bound() const { return 1.96 * 2.0 / std::sqrt(static_cast<double>(count_)); }
-double Innovations::share_within_95() const { return static_cast<double>(within_) / static_cast<double>(count_); }
 
 Innovations innovations_of(const std::filesystem::path& recording) {
   RecordingReader reader(recording.string());
@@ -133,8 +151,6 @@ void TrackScore::InTime::note(bool found, bool over, bool& open) {
   in_time += found ? 1U : 0U;
 }
 
-double TrackScore::InTime::share() const { return bench::share(in_time, decided); }
-
 void TrackScore::note_stay(double t_s, const Target& target, bool found) {
   const auto known = stays_.find(target.id);
   const bool comes = known == stays_.end() || t_s - known->second.last_s > kAwayS;
@@ -171,17 +187,37 @@ void TrackScore::add(double t_s, std::span<const Target> targets, std::span<cons
   frame_before_s_ = t_s;
 }
 
-double TrackScore::mota() const { return 1.0 - share(misses() + false_positives_ + switches_, targets_); }
-double TrackScore::motp_m() const { return matches_ == 0 ? kNone : distance_sum_m_ / static_cast<double>(matches_); }
-double TrackScore::velocity_rmse_mps() const {
-  return compared_ == 0 ? kNone : std::sqrt(velocity_error2_sum_ / static_cast<double>(compared_));
-}
-
-double TrackScore::steady_wrong() const { return share(steady_wrong_, steady_compared_); }
-double TrackScore::covered() const { return share(covered_, claimed_); }
 std::size_t TrackScore::false_movers() const {
   return static_cast<std::size_t>(
       std::count_if(moved_.begin(), moved_.end(), [&](std::uint32_t id) { return right_.count(id) == 0; }));
+}
+
+StepError greatest_step_error(const std::vector<PosePair>& drive) {
+  StepError most;
+  for (std::size_t k = 1; k < drive.size(); ++k) {
+    const Pose2 off = motion_error(drive[k - 1], drive[k]);
+    most.translation_m = std::max(most.translation_m, norm(off.position()));
+    most.heading_deg = std::max(most.heading_deg, std::fabs(off.heading) * 180.0 / kPi);
+  }
+  return most;
+}
+
+RelativeError relative_error(const std::vector<PosePair>& drive, double length_m, double every_m) {
+  const std::vector<double> way = way_m(drive);
+  std::vector<double> percent, degrees;
+  double next_start = 0.0;
+  for (std::size_t a = 0; a < drive.size(); ++a) {
+    if (way[a] < next_start) continue;
+    const auto end = std::lower_bound(way.begin(), way.end(), way[a] + length_m);
+    if (end == way.end()) break;
+    next_start = way[a] + every_m;
+    const auto b = static_cast<std::size_t>(end - way.begin());
+    const Pose2 off = motion_error(drive[a], drive[b]);
+    percent.push_back(100.0 * norm(off.position()) / (way[b] - way[a]));
+    degrees.push_back(std::fabs(off.heading) * 180.0 / kPi);
+  }
+  const std::size_t stretches = percent.size();
+  return {stretches, median(percent), median(degrees)};
 }
 
 }  // namespace jaywalk::bench

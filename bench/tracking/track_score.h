@@ -1,6 +1,8 @@
 #pragma once
 // Scores of tracks: the CLEAR MOT figures (Bernardin and Stiefelhagen 2008), velocities, false movers, how soon a mover
-// is found, and whether tracks are as sure as they have a right to be (Bar-Shalom et al. 2001, section 5.4).
+// is found, and whether tracks are as sure as they have a right to be (Bar-Shalom et al. 2001, section 5.4). Scores of
+// poses.
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -16,6 +18,11 @@
 namespace jaywalk::bench {
 inline constexpr double kWithin95 = 5.991;  ///< chi-squared, two degrees of freedom: -2 ln 0.05
 
+/// NaN of nothing.
+[[nodiscard]] inline double share_of(std::size_t part, std::size_t whole) {
+  return whole == 0 ? std::numeric_limits<double>::quiet_NaN() : static_cast<double>(part) / static_cast<double>(whole);
+}
+
 /// Innovations of tracks that move, each squared and divided by the covariance that the filter gave it: chi-squared
 /// with two degrees of freedom where the filter is honest, mean 2, 95 in 100 below 5.99. Less: it doubts too much.
 class Innovations {
@@ -26,10 +33,10 @@ class Innovations {
 
   [[nodiscard]] std::size_t count() const { return count_; }
   /// NaN without any, as the next.
-  [[nodiscard]] double mean() const;
+  [[nodiscard]] double mean() const { return sum_ / static_cast<double>(count_); }
   /// How far from 2 the mean of so many independent ones stays in 95 of 100 cases.
-  [[nodiscard]] double mean_bound() const;
-  [[nodiscard]] double share_within_95() const;
+  [[nodiscard]] double mean_bound() const { return 1.96 * 2.0 / std::sqrt(static_cast<double>(count_)); }
+  [[nodiscard]] double share_within_95() const { return share_of(within_, count_); }
 
  private:
   std::map<std::uint32_t, std::uint32_t> hits_before_;  ///< of each track
@@ -87,15 +94,17 @@ class TrackScore {
   /// Those of them that no long absence explains: the target had been found at most kept_s before.
   [[nodiscard]] std::size_t quick_switches() const { return quick_switches_; }
   /// 1 - (misses + false positives + switches) / targets; NaN without targets.
-  [[nodiscard]] double mota() const;
+  [[nodiscard]] double mota() const { return 1.0 - share_of(misses() + false_positives_ + switches_, targets_); }
   /// Mean distance of matched pairs, m; NaN without any.
-  [[nodiscard]] double motp_m() const;
+  [[nodiscard]] double motp_m() const { return distance_sum_m_ / static_cast<double>(matches_); }
   /// Root of the mean squared length of the velocity's error, m/s; NaN where nothing could be compared.
-  [[nodiscard]] double velocity_rmse_mps() const;
+  [[nodiscard]] double velocity_rmse_mps() const {
+    return std::sqrt(velocity_error2_sum_ / static_cast<double>(compared_));
+  }
   /// Of targets that kept their velocity, how many of the compared ones were wrong (ScoreRules::steady_mps); NaN: none.
-  [[nodiscard]] double steady_wrong() const;
+  [[nodiscard]] double steady_wrong() const { return share_of(steady_wrong_, steady_compared_); }
   /// Share of their positions within the 95 % bound of what the tracks claim; NaN where none claims anything.
-  [[nodiscard]] double covered() const;
+  [[nodiscard]] double covered() const { return share_of(covered_, claimed_); }
   /// Tracks that moved and never were anybody's.
   [[nodiscard]] std::size_t false_movers() const;
   /// Share of the times a target moved in view, having come there, that it was found soon; NaN where none did. While it
@@ -119,7 +128,7 @@ class TrackScore {
     std::size_t decided = 0, in_time = 0;
     /// Decides `open` where `found`, or where the time is over; who leaves before either tells nothing.
     void note(bool found, bool over, bool& open);
-    [[nodiscard]] double share() const;
+    [[nodiscard]] double share() const { return share_of(in_time, decided); }
   };
   /// A stay in view.
   struct Stay {
@@ -146,5 +155,28 @@ class TrackScore {
   double frame_before_s_ = 0.0;
   double distance_sum_m_ = 0.0, velocity_error2_sum_ = 0.0;
 };
+
+/// Two beliefs of where the robot was at the same moment, each in a frame of its own.
+struct PosePair {
+  Pose2 estimate, truth;
+};
+
+/// Medians over all stretches of the given length. NaN where the drive was shorter.
+struct RelativeError {
+  std::size_t stretches = 0;
+  double translation_percent = 0.0;  ///< of the stretch's length
+  double heading_deg = 0.0;
+};
+
+/// By how much the estimate's motion differs from the true one over stretches of `length_m` of the true way, one
+/// beginning every `every_m` (relative pose error: Sturm et al. 2012, over distance as Geiger et al. 2012). Ways are
+/// measured from place to place at least 5 cm apart, so that a standing robot's noise is no way.
+[[nodiscard]] RelativeError relative_error(const std::vector<PosePair>& drive, double length_m, double every_m);
+
+/// From a pair to the next: by how much the estimate's motion differs from the true one at most.
+struct StepError {
+  double translation_m = 0.0, heading_deg = 0.0;
+};
+[[nodiscard]] StepError greatest_step_error(const std::vector<PosePair>& drive);
 
 }  // namespace jaywalk::bench

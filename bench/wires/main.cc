@@ -8,7 +8,6 @@
 #include "apps/report/distribution.h"
 #include "bench/command_line.h"
 #include "firmware/backends.h"
-#include "hal/types/errors.h"
 #include "hil/far_end/simulated_robot.h"
 
 namespace jaywalk::bench {
@@ -23,25 +22,13 @@ struct Figures {
   Distribution waking_ms, tick_to_frame_ms, scan_to_frame_ms;
 };
 
-/// Drives to and fro between the scenario's goal and its start.
-class Drive {
- public:
-  Drive(const sim::Scenario& scenario, rig::InProcessRobot& robot) : scenario_(scenario), robot_(robot) {}
-  void keep_going() {
-    const Vec2 place = robot_.far_end().truth().map_from_robot.position();
-    if (under_way_ && distance(place, goal_) > 0.5) return;
-    under_way_ = true;
-    goal_ = goal_ == scenario_.goal ? scenario_.start.position() : scenario_.goal;
-    const std::string line = "goto " + std::to_string(goal_.x) + " " + std::to_string(goal_.y);
-    static_cast<void>(robot_.desk().obey(line));
-  }
-
- private:
-  const sim::Scenario& scenario_;
-  rig::InProcessRobot& robot_;
-  Vec2 goal_{};
-  bool under_way_ = false;
-};
+/// Keeps it driving to and fro between the scenario's goal and its start. `goal`: the newest; none at first.
+void keep_going(const sim::Scenario& scenario, rig::InProcessRobot& robot, std::optional<Vec2>& goal) {
+  if (goal && distance(robot.far_end().truth().map_from_robot.position(), *goal) > 0.5) return;
+  goal = goal == scenario.goal ? scenario.start.position() : scenario.goal;
+  const std::string line = "goto " + std::to_string(goal->x) + " " + std::to_string(goal->y);
+  static_cast<void>(robot.desk().obey(line));
+}
 
 Figures measure(const Options& options) {
   const sim::Scenario scenario = sim::load_scenario(options.scenario);
@@ -62,7 +49,7 @@ Figures measure(const Options& options) {
   for (const std::string& line : enter_realtime(file.realtime)) std::fprintf(stderr, "%s\n", line.c_str());
 
   Figures figures;
-  Drive drive(scenario, robot);
+  std::optional<Vec2> goal;
   const Time end = clock.now() + duration_from_seconds(options.seconds);
   std::uint32_t used = robot.laser().latest().sequence;
   for (Time due = clock.now() + file.setup.tick(); due < end; due += file.setup.tick()) {
@@ -76,7 +63,7 @@ Figures measure(const Options& options) {
       figures.scan_to_frame_ms.add(ms_since(robot.messages()[used]));
     robot.runner().drain();
     while (robot.loop().traces().front() != nullptr) robot.loop().traces().pop();
-    drive.keep_going();
+    keep_going(scenario, robot, goal);
   }
   return figures;
 }
@@ -97,15 +84,11 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--seconds", options.seconds, "How long")->check(CLI::Range(1.0, 3600.0))->capture_default_str();
   app.add_option("--out", options.out, "Folder for what the run leaves")->capture_default_str();
-  if (const auto ended = jaywalk::bench::ended_by_command_line(app, argc, argv)) return *ended;
-  try {
+  return run(app, argc, argv, [&] {
     const Figures figures = measure(options);
     std::printf("| %-52s | %8s | %8s | %8s |\n|---|---|---|---|\n", "ms", "p50", "p99", "max");
     row("from when a tick was due to its start", figures.waking_ms);
     row("from a tick's start to its last frame", figures.tick_to_frame_ms);
     row("from a scan's last byte to the first frame that used it", figures.scan_to_frame_ms);
-  } catch (const jaywalk::StartupError& error) {
-    std::fprintf(stderr, "jaywalk_wire_time: %s\n", error.what());
-    return 2;
-  }
+  });
 }

@@ -8,7 +8,7 @@ import math
 import random
 import re
 
-from command_line import reading, refuse
+from command_line import files_in, reading, refuse
 
 from world_kinds.drawn import rounded
 
@@ -85,9 +85,7 @@ def pair(building, passable, standing, rng):
 def buildings(to, options):
     """A P3-DX and a wheelchair, each seed a pair of places 15 to 60 m apart by the way, nobody about but `--movers`, the
     map not known to them. `--data`: a folder of maps."""
-    files = sorted(options.data.glob("*.yaml"))
-    if not files:
-        refuse(f"{options.data}: no map.yaml in it", "give the folder of a map, as jaywalk replay --save-map leaves it")
+    files = files_in(options.data, "*.yaml", "map.yaml", "give the folder of a map, as jaywalk replay --save-map leaves it")
     walk = {"kind": "wander", "count": options.movers, "speed_mps": 0.4, "radius_m": 0.27}
     for model, passes_m in PASSES_M.items():
         scenarios = []

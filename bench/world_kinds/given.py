@@ -2,7 +2,7 @@
 import os
 import pathlib
 
-from command_line import refuse
+from command_line import files_in
 
 from world_kinds.folder import LASER
 
@@ -34,9 +34,7 @@ def bare_hall(to):
 
 def cylinders(to, data):
     """Name and map of each world of BARN's: lines `x y radius` in m."""
-    files = sorted(data.glob("world_*.txt"))
-    if not files:
-        refuse(f"{data}: no world_*.txt in it", "give the folder of BARN's worlds")
+    files = files_in(data, "world_*.txt", "world_*.txt", "give the folder of BARN's worlds")
     return [(file.stem, {"cylinders": to.copy(file)}) for file in files]
 
 

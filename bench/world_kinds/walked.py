@@ -3,7 +3,7 @@ import csv
 import math
 import random
 
-from command_line import reading, refuse
+from command_line import files_in, reading
 
 from world_kinds.given import bare_hall
 
@@ -57,10 +57,7 @@ def middle(file):
 
 
 def recordings(data):
-    files = sorted(data.glob("*.csv"))
-    if not files:
-        refuse(f"{data}: no .csv in it", "give a folder of recorded ways")
-    return files
+    return files_in(data, "*.csv", ".csv", "give a folder of recorded ways")
 
 
 def people(to, options):

@@ -10,7 +10,6 @@
 #include <cassert>
 #include <cstdio>
 #include <numeric>
-#include <utility>
 
 namespace jaywalk::emulated {
 namespace {
@@ -29,9 +28,8 @@ std::size_t made = 0, running = 0;
 jmp_buf caller;
 
 const std::function<void()>* running_kernel = nullptr;
-std::vector<unsigned> order;                  ///< of threads to begin; at barriers, of fibers to go on
-std::size_t begun = 0, ended = 0;             ///< threads
-bool vote_so_far = false, was_voted = false;  ///< since the last barrier; before it
+std::vector<unsigned> order;       ///< of threads to begin; at barriers, of fibers to go on
+std::size_t begun = 0, ended = 0;  ///< threads
 
 void give_way() {
   if (_setjmp(fibers[running].place) == 0) _longjmp(caller, 1);
@@ -72,7 +70,6 @@ void run_fiber(std::size_t fiber) {
 }
 
 void open_barrier(OrderRandom& random) {
-  was_voted = std::exchange(vote_so_far, false);
   std::shuffle(order.begin(), order.end(), random);
   for (const unsigned fiber : order) {
     threadIdx.x = fibers[fiber].thread;
@@ -93,7 +90,7 @@ bool run_block(std::size_t threads, const std::function<void()>& kernel, OrderRa
   assert(threads > 0 && threads <= kMostThreads);
   running_kernel = &kernel;
   order = in_random_order(threads, random);
-  begun = ended = 0, vote_so_far = false;
+  begun = ended = 0;
   for (std::size_t fiber = 0; begun < threads; ++fiber) run_fiber(fiber);
   for (; ended == 0; ++barriers) open_barrier(random);
   if (ended == threads) return true;
@@ -102,11 +99,9 @@ bool run_block(std::size_t threads, const std::function<void()>& kernel, OrderRa
   return false;
 }
 
-bool meet_block(bool vote) {
-  vote_so_far = vote_so_far || vote;
+void meet_block() {
   fibers[running].thread = threadIdx.x;
   give_way();
-  return was_voted;
 }
 
 }  // namespace jaywalk::emulated

@@ -15,13 +15,12 @@ using OrderRandom = std::minstd_rand;  ///< of blocks and threads: the same seed
 
 inline constexpr std::size_t kMostThreads = 1024;  ///< of a block (CUDA C++ Programming Guide, table 21)
 
-/// Runs `kernel` for each thread, and counts the barriers that open. Returns false where threads wait at a barrier that
-/// other threads never reach.
+/// Runs `kernel` for each thread, and counts the barriers that open. False where some threads never reach a barrier.
 [[nodiscard]] bool run_block(std::size_t threads, const std::function<void()>& kernel, OrderRandom& random,
                              std::int64_t& barriers);
 
-/// Called by a kernel: waits until all threads of the block have called it. Returns whether any of them voted true.
-bool meet_block(bool vote);
+/// Called by a kernel: waits until all threads of the block have called it.
+void meet_block();
 
 /// CUDA's indices of the running thread, those that the project's kernels use.
 struct Index {

@@ -11,15 +11,13 @@
 
 namespace jaywalk::emulated {
 
-// Memories of the device. Each allocation is poisoned and ends at a page that nothing may touch. Where memory is
-// guarded, the host's access to what is not its own is a segmentation fault. (To open and close memory takes longer
-// than small kernels do, on virtual machines most of all.)
-
 enum class Where : std::uint8_t {
   kDevice,  ///< the device's alone
   kPinned,  ///< of the host; the device's too
 };
 
+/// Each allocation is poisoned and ends at a page that nothing may touch. Where memory is guarded, which takes longer
+/// than small kernels do, the host's access to what is not its own is a segmentation fault.
 class Memory {
  public:
   /// Releases all memory. From now on there are `room` bytes; a block that is taken is filled with `poison`.

@@ -25,8 +25,7 @@ __global__ void __launch_bounds__(kSumThreads) add_up(const Counted* counted, st
   if (threadIdx.x == 0) *sum = {cells, joined};
 }
 
-/// An executor on a CUDA device: every stage is a launch on one stream. The host waits where its next step depends on a
-/// count, and at the end.
+/// An executor on a CUDA device: every stage is a launch on one stream.
 class CudaExecutor {
  public:
   /// `limit`: longest wait for the device, as CudaDevice has it.

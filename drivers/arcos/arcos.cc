@@ -1,5 +1,4 @@
 #include <cstdlib>
-#include <utility>
 
 #include "drivers/arcos/arcos_base.h"
 
@@ -14,10 +13,6 @@ constexpr std::uint16_t kMotorsOn = 1, kStallBits = 0x0101, kFaultFlags = 0x0060
 
 bool takes_argument(Command command) noexcept {
   return command > Command::kClose && command != Command::kStop && command != Command::kEmergencyStop;
-}
-
-void skip_text(wire::ByteReader& reader) noexcept {
-  while (reader.ok() && reader.little<std::uint8_t>() != 0) continue;
 }
 
 std::array<char, 24> text(wire::ByteReader& reader) noexcept {
@@ -53,32 +48,37 @@ Packet packet_of(const Word& word) noexcept {
   return packet;
 }
 
+std::vector<CanFrame> stop_frames() {
+  std::vector<CanFrame> frames;
+  in_frames(packet_of({Command::kStop}).on_line(), [&frames](const CanFrame& frame) { frames.push_back(frame); });
+  return frames;
+}
+
 wire::Bytes PacketReader::next() noexcept {
-  queue_.drop(std::exchange(told_, 0));
   for (;;) {
-    const wire::Bytes waiting = queue_.waiting();
-    if (waiting.size() < kHead) return {};
-    const std::size_t count = waiting[2];
-    const bool begins = waiting[0] == kFirst && waiting[1] == kSecond && count > kSum;
-    if (begins && waiting.size() < kHead + count) return {};
-    const wire::Bytes body = begins ? waiting.subspan(kHead, count - kSum) : wire::Bytes();
-    if (begins && wire::big_endian<std::uint16_t>(waiting.subspan(kHead + count - kSum)) == checksum(body)) {
-      told_ = kHead + count;
+    const wire::Bytes rest = waiting();
+    if (rest.size() < kHead) return {};
+    const std::size_t count = rest[2];
+    const bool begins = rest[0] == kFirst && rest[1] == kSecond && count > kSum;
+    if (begins && rest.size() < kHead + count) return {};
+    const wire::Bytes body = begins ? rest.subspan(kHead, count - kSum) : wire::Bytes();
+    if (begins && wire::big_endian<std::uint16_t>(rest.subspan(kHead + count - kSum)) == checksum(body)) {
+      drop(kHead + count);
       return body;
     }
-    queue_.drop(1);
+    skip(1);
   }
 }
 
 std::optional<Report> report_in(wire::Bytes body) noexcept {
   wire::ByteReader reader(body);
   const auto type = reader.little<std::uint8_t>();
-  static_cast<void>(reader.take(6));  // x, y, heading: the encoders tell more
+  reader.take(6);  // x, y, heading: the encoders tell more
   Report report;
   for (double& speed : report.speed_mmps) speed = static_cast<std::int16_t>(reader.little<std::uint16_t>());
-  static_cast<void>(reader.take(1));  // battery
+  reader.take(1);  // battery
   const auto stalls = reader.little<std::uint16_t>();
-  static_cast<void>(reader.take(2));  // set point of its heading
+  reader.take(2);  // set point of its heading
   const auto flags = reader.little<std::uint16_t>();
   if (!reader.ok() || (type & 0xF0U) != kReports) return std::nullopt;
   report.faults = (stalls & kStallBits) | static_cast<std::uint32_t>(flags & kFaultFlags) << 16U;
@@ -98,22 +98,21 @@ std::optional<Settings> settings_in(wire::Bytes body) noexcept {
   wire::ByteReader reader(body);
   const auto type = reader.little<std::uint8_t>();
   Settings settings{.type = text(reader), .subtype = text(reader)};
-  skip_text(reader);                   // serial number
-  static_cast<void>(reader.take(11));  // unused; fastest that can be set: turn, speed, their ramps; PWM
-  skip_text(reader);                   // name
+  text(reader);     // serial number
+  reader.take(11);  // unused; fastest that can be set: turn, speed, their ramps; PWM
+  text(reader);     // name
   settings.cycle_ms = reader.little<std::uint8_t>();
-  static_cast<void>(reader.take(11));  // baud of two lines, gripper, sonars, low battery, ticks of a turn
+  reader.take(11);  // baud of two lines, gripper, sonars, low battery, ticks of a turn
   settings.watchdog_ms = reader.little<std::uint16_t>();
-  static_cast<void>(reader.take(9));  // packets, stall's PWM and time, joystick's speeds
+  reader.take(9);  // packets, stall's PWM and time, joystick's speeds
   settings.turn_top_dps = reader.little<std::uint16_t>();
   settings.top_mmps = reader.little<std::uint16_t>();
   settings.turn_acceleration_dps2 = reader.little<std::uint16_t>();
   settings.turn_deceleration_dps2 = reader.little<std::uint16_t>();
-  static_cast<void>(reader.take(6));  // gains
+  reader.take(6);  // gains
   settings.acceleration_mmps2 = reader.little<std::uint16_t>();
   settings.deceleration_mmps2 = reader.little<std::uint16_t>();
-  static_cast<void>(
-      reader.take(16));  // gains, bumpers, charger, sonar's cycle, baud after a reset, gyro, drift, two lines
+  reader.take(16);  // gains, bumpers, charger, sonar's cycle, baud after a reset, gyro, drift, two lines
   settings.ticks_per_mm = reader.little<std::uint16_t>();
   if (!reader.ok() || type != kSettingsBody) return std::nullopt;
   return settings;

@@ -11,7 +11,7 @@
 namespace jaywalk::arcos {
 namespace {
 
-constexpr Duration kBoardSilence = std::chrono::milliseconds(150), kBoardSettling = std::chrono::milliseconds(300);
+constexpr Duration kBoardSilence = std::chrono::milliseconds(150);
 constexpr Duration kBoardAnswer = std::chrono::seconds(3);  // a connection at 20 Hz takes one
 constexpr Duration kSettingsAnswer = std::chrono::seconds(1);
 constexpr Duration kEcho = std::chrono::milliseconds(200);   // a SYNC without one is lost
@@ -31,7 +31,7 @@ int in_ms(Duration time) { return static_cast<int>(time / std::chrono::milliseco
 ArcosBase::ArcosBase(CanBus& bus, Clock& clock, const BaseSetup& setup)
     : MotorPair(bus, clock,
                 {std::max({kBoardSilence, 3 * setup.tick, duration_from_seconds(setup.times.oldest_report_s())}),
-                 kBoardSettling, kBoardAnswer, setup.stop, setup.allow_unproved, true}),
+                 kBoardAnswer, setup.stop, setup.allow_unproved, true}),
       bus_(bus),
       setup_(setup),
       script_{{{Command::kStop},

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "drivers/motor/motor_pair.h"
 #include "drivers/wire/byte_reader.h"
@@ -45,15 +46,9 @@ struct Packet {
 [[nodiscard]] std::uint16_t checksum(wire::Bytes body) noexcept;
 
 /// Finds packets in a stream of bytes; what is damaged is skipped.
-class PacketReader {
- public:
-  void append(wire::Bytes bytes) noexcept { queue_.append(bytes); }
-  /// The next packet's body, without header and checksum, until the next call; empty: none is whole.
+struct PacketReader : wire::ByteQueue<1024> {
+  /// The next packet's body, without header and checksum, until the next append; empty: none is whole.
   [[nodiscard]] wire::Bytes next() noexcept;
-
- private:
-  wire::ByteQueue<1024> queue_;
-  std::size_t told_ = 0;  ///< bytes of the packet that was returned last
 };
 
 /// Bits of Report::faults.
@@ -133,8 +128,6 @@ class ArcosBase final : public MotorPair {
   void take_report(const Report& report, Time stamp) noexcept;
   void take_encoders(const Encoders& counts, Time stamp) noexcept;
   void send_order(std::size_t index, MotorOrder order, double speed_radps) noexcept override;
-  /// A stop button is released by hand, and a stall ends by itself.
-  void send_reset(std::size_t) noexcept override {}
   /// Its motors follow no speeds any more, by an order or because its watchdog tripped.
   void leave_operation() noexcept;
   [[nodiscard]] Duration watchdog() const noexcept;
@@ -178,17 +171,7 @@ class ArcosBase final : public MotorPair {
   double told_mmps_ = 0.0, told_turn_dps_ = 0.0;
 };
 
-/// Tells the board to stop, over a place of its own on its line.
-class Stopper final : public EmergencyBrake {
- public:
-  /// `bus` outlives it and takes frames from the thread that brakes.
-  explicit Stopper(CanBus& bus) noexcept : bus_(bus) {}
-  void brake() noexcept override {
-    in_frames(packet_of({Command::kStop}).on_line(), [this](const CanFrame& f) { static_cast<void>(bus_.send(f)); });
-  }
-
- private:
-  CanBus& bus_;
-};
+/// The frames that tell the board to stop.
+[[nodiscard]] std::vector<CanFrame> stop_frames();
 
 }  // namespace jaywalk::arcos

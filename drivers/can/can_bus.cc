@@ -1,6 +1,6 @@
 #include "drivers/can/can_bus.h"
 
-#include <cstdio>
+#include "hal/shown_text.h"
 
 namespace jaywalk {
 namespace {
@@ -10,40 +10,23 @@ constexpr Duration kReopening = std::chrono::milliseconds(500);
 }  // namespace
 
 std::string to_text(const CanFrame& frame) {
-  std::array<char, 32> text{};
-  int end =
-      std::snprintf(text.data(), text.size(), frame.extended ? "%08X#" : "%03X#", static_cast<unsigned>(frame.id));
-  for (std::size_t at = 0; !frame.remote && at < frame.size; ++at)
-    end += std::snprintf(text.data() + end, text.size() - static_cast<std::size_t>(end), "%02X", frame.bytes[at]);
-  return text.data() + std::string(frame.remote ? "R" : "");
+  std::string text = formatted(frame.extended ? "%08X#" : "%03X#", static_cast<unsigned>(frame.id));
+  if (frame.remote) return text + "R";
+  for (const std::uint8_t byte : frame.payload()) text += formatted("%02X", byte);
+  return text;
 }
 
 std::string_view name(CanState state) noexcept {
-  switch (state) {
-    case CanState::kActive: return "error active";
-    case CanState::kWarning: return "error warning";
-    case CanState::kPassive: return "error passive";
-    case CanState::kBusOff: return "bus-off";
-    case CanState::kDown: return "interface down";
-  }
-  return "unknown state";
+  constexpr std::array<std::string_view, 5> kNames{"error active", "error warning", "error passive", "bus-off",
+                                                   "interface down"};
+  const auto index = static_cast<std::size_t>(state);
+  return index < kNames.size() ? kNames[index] : "unknown state";
 }
 
-std::string_view name(SendResult result) noexcept {
-  switch (result) {
-    case SendResult::kQueued: return "queued";
-    case SendResult::kQueueFull: return "send queue full";
-    case SendResult::kOffBus: return "off the bus";
-    case SendResult::kNotAFrame: return "not a frame";
-    case SendResult::kSystemError: return "refused by the system";
-  }
-  return "unknown result";
-}
-
-SendResult ByteBus::send(const CanFrame& frame) noexcept {
+bool ByteBus::send(const CanFrame& frame) noexcept {
   const std::scoped_lock held(turn_);
   link_->write(frame.payload());
-  return link_->state() == wire::Link::State::kOpen ? SendResult::kQueued : SendResult::kOffBus;
+  return link_->state() == wire::Link::State::kOpen;
 }
 
 bool ByteBus::receive(ReceivedFrame& received) noexcept {

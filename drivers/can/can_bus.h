@@ -52,16 +52,7 @@ enum class CanState : std::uint8_t {
   kDown      ///< the interface is down or gone
 };
 
-enum class SendResult : std::uint8_t {
-  kQueued,      ///< the controller has it; that it reached anybody is for others to say
-  kQueueFull,   ///< ENOBUFS: nobody acknowledges, or too much at once
-  kOffBus,      ///< interface down, gone, or bus-off
-  kNotAFrame,   ///< is_valid said no
-  kSystemError  ///< anything else that the kernel refuses
-};
-
 [[nodiscard]] std::string_view name(CanState state) noexcept;
-[[nodiscard]] std::string_view name(SendResult result) noexcept;
 
 struct CanHealth {
   CanState state = CanState::kActive;
@@ -78,7 +69,9 @@ inline constexpr int kMostFramesATick = 512;
 class CanBus {
  public:
   virtual ~CanBus() = default;
-  [[nodiscard]] virtual SendResult send(const CanFrame& frame) noexcept = 0;
+  /// True where the controller has it; that it reached a device is for others to say. False where its queue is full (no
+  /// acknowledgement, or too much at once), off the bus, and for what is_valid() refuses.
+  [[nodiscard]] virtual bool send(const CanFrame& frame) noexcept = 0;
   /// Takes the oldest frame that waits; false when there is none. Own frames do not come back.
   [[nodiscard]] virtual bool receive(ReceivedFrame& received) noexcept = 0;
   /// As known from what was received so far.
@@ -125,7 +118,7 @@ class ByteBus final : public CanBus {
   /// Begins to open. `clock` outlives it.
   ByteBus(std::unique_ptr<wire::Link> link, Clock& clock) noexcept : link_(std::move(link)), clock_(clock) { refill(); }
 
-  [[nodiscard]] SendResult send(const CanFrame& frame) noexcept override;
+  [[nodiscard]] bool send(const CanFrame& frame) noexcept override;
   [[nodiscard]] bool receive(ReceivedFrame& received) noexcept override;
   [[nodiscard]] CanHealth health() const noexcept override;
 

@@ -14,24 +14,21 @@
 #include <cerrno>
 #include <cstddef>
 #include <cstring>
-#include <span>
 
 #include "hal/types/errors.h"
 
 namespace jaywalk {
 namespace {
 
-using Octets = std::span<const std::uint8_t>;
-
 template <class T>
-T read_as(Octets bytes) {
+T read_as(wire::Bytes bytes) {
   T value{};
   if (bytes.size() >= sizeof value) std::memcpy(&value, bytes.data(), sizeof value);
   return value;
 }
 
 /// Payload of the attribute of that type (struct rtattr, each at a multiple of four bytes); empty where there is none.
-Octets attribute(Octets bytes, std::uint16_t type) {
+wire::Bytes attribute(wire::Bytes bytes, std::uint16_t type) {
   while (bytes.size() >= sizeof(rtattr)) {
     const auto head = read_as<rtattr>(bytes);
     if (head.rta_len < sizeof head || head.rta_len > bytes.size()) return {};
@@ -41,7 +38,7 @@ Octets attribute(Octets bytes, std::uint16_t type) {
   return {};
 }
 
-std::optional<CanState> state_of(Octets bytes) {
+std::optional<CanState> state_of(wire::Bytes bytes) {
   if (bytes.size() < sizeof(std::uint32_t)) return std::nullopt;
   switch (read_as<std::uint32_t>(bytes)) {
     case CAN_STATE_ERROR_ACTIVE: return CanState::kActive;
@@ -79,15 +76,15 @@ LinkFacts link_facts(const std::string& interface) {
   const unsigned index = ::if_nametoindex(interface.c_str());
   const std::vector<std::uint8_t> answer =
       index == 0 ? std::vector<std::uint8_t>() : ask_kernel(static_cast<int>(index));
-  const Octets bytes(answer);
+  const wire::Bytes bytes(answer);
   if (bytes.size() < sizeof(nlmsghdr) + sizeof(ifinfomsg) || read_as<nlmsghdr>(bytes).nlmsg_type != RTM_NEWLINK)
     return facts;
   const auto about = read_as<ifinfomsg>(bytes.subspan(sizeof(nlmsghdr)));
   facts.exists = true;
   facts.is_can = about.ifi_type == ARPHRD_CAN;
   facts.is_up = (about.ifi_flags & IFF_UP) != 0;
-  const Octets link = attribute(bytes.subspan(sizeof(nlmsghdr) + sizeof(ifinfomsg)), IFLA_LINKINFO);
-  const Octets kind = attribute(link, IFLA_INFO_KIND), can = attribute(link, IFLA_INFO_DATA);
+  const wire::Bytes link = attribute(bytes.subspan(sizeof(nlmsghdr) + sizeof(ifinfomsg)), IFLA_LINKINFO);
+  const wire::Bytes kind = attribute(link, IFLA_INFO_KIND), can = attribute(link, IFLA_INFO_DATA);
   for (const std::uint8_t letter : kind)
     if (letter != 0) facts.kind += static_cast<char>(letter);
   if (facts.kind != "can") return facts;

@@ -28,15 +28,14 @@ void InProcessBus::Port::set_state(CanState state) noexcept {
   if (!on_bus()) count_ = 0;
 }
 
-SendResult InProcessBus::Port::send(const CanFrame& frame) noexcept {
-  if (!is_valid(frame)) return SendResult::kNotAFrame;
-  if (!on_bus()) return SendResult::kOffBus;
+bool InProcessBus::Port::send(const CanFrame& frame) noexcept {
+  if (!is_valid(frame) || !on_bus()) return false;
   if (refusals_ > 0) {
     --refusals_;
-    return SendResult::kQueueFull;
+    return false;
   }
   bus_->deliver(frame, *this);
-  return SendResult::kQueued;
+  return true;
 }
 
 bool InProcessBus::Port::receive(ReceivedFrame& received) noexcept {

@@ -32,7 +32,7 @@ class InProcessBus {
 
   class Port final : public CanBus {
    public:
-    [[nodiscard]] SendResult send(const CanFrame& frame) noexcept override;
+    [[nodiscard]] bool send(const CanFrame& frame) noexcept override;
     [[nodiscard]] bool receive(ReceivedFrame& received) noexcept override;
     [[nodiscard]] CanHealth health() const noexcept override { return health_; }
 

@@ -46,16 +46,10 @@ void bind_to(int socket, int index, const std::string& interface) {
     refuse(interface, "bind", errno);
 }
 
-Duration since_epoch(const timespec& time) noexcept {
-  return std::chrono::seconds(time.tv_sec) + std::chrono::nanoseconds(time.tv_nsec);
-}
-
 /// What the kernel sends along with a frame.
 struct Ancillary {
-  bool has_stamp = false;
-  Duration stamp{};  ///< CLOCK_REALTIME
-  bool has_lost = false;
-  std::uint32_t lost = 0;  ///< frames dropped by this socket since it was opened
+  std::optional<Duration> stamp;      ///< CLOCK_REALTIME
+  std::optional<std::uint32_t> lost;  ///< frames dropped by this socket since it was opened
 };
 
 Ancillary read_ancillary(msghdr& message) noexcept {
@@ -65,21 +59,16 @@ Ancillary read_ancillary(msghdr& message) noexcept {
     if (item->cmsg_type == SCM_TIMESTAMPNS) {
       timespec stamp{};
       std::memcpy(&stamp, CMSG_DATA(item), sizeof stamp);
-      found.stamp = since_epoch(stamp);
-      found.has_stamp = true;
+      found.stamp = std::chrono::seconds(stamp.tv_sec) + std::chrono::nanoseconds(stamp.tv_nsec);
     } else if (item->cmsg_type == SO_RXQ_OVFL) {
-      std::memcpy(&found.lost, CMSG_DATA(item), sizeof found.lost);
-      found.has_lost = true;
+      std::memcpy(&found.lost.emplace(), CMSG_DATA(item), sizeof(std::uint32_t));
     }
   }
   return found;
 }
 
-Duration wall_clock() noexcept {
-  timespec wall{};
-  ::clock_gettime(CLOCK_REALTIME, &wall);  // cannot fail: a clock that every kernel has
-  return since_epoch(wall);
-}
+/// CLOCK_REALTIME.
+Duration wall_clock() noexcept { return std::chrono::system_clock::now().time_since_epoch(); }
 
 }  // namespace
 
@@ -149,18 +138,12 @@ wire::FileDescriptor SocketCan::second() const {
 
 void SocketCan::listen(std::span<const CanFilter> filters) { set_filters(socket_.get(), filters, "CAN"); }
 
-SendResult SocketCan::send(const CanFrame& frame) noexcept {
-  if (!is_valid(frame)) return SendResult::kNotAFrame;
+bool SocketCan::send(const CanFrame& frame) noexcept {
+  if (!is_valid(frame)) return false;
   const can_frame raw = to_kernel(frame);
-  if (::send(socket_.get(), &raw, sizeof raw, MSG_DONTWAIT | MSG_NOSIGNAL) == sizeof raw) return SendResult::kQueued;
-  switch (errno) {
-    case ENOBUFS:
-    case EAGAIN: return SendResult::kQueueFull;
-    case ENETDOWN:
-    case ENXIO:
-    case ENODEV: health_.state = CanState::kDown; return SendResult::kOffBus;
-    default: return SendResult::kSystemError;
-  }
+  if (::send(socket_.get(), &raw, sizeof raw, MSG_DONTWAIT | MSG_NOSIGNAL) == sizeof raw) return true;
+  if (errno == ENETDOWN || errno == ENXIO || errno == ENODEV) health_.state = CanState::kDown;
+  return false;
 }
 
 bool SocketCan::receive(ReceivedFrame& received) noexcept {
@@ -181,7 +164,7 @@ bool SocketCan::receive(ReceivedFrame& received) noexcept {
       return false;
     }
     const Ancillary ancillary = read_ancillary(message);
-    if (ancillary.has_lost) health_.frames_lost = ancillary.lost;
+    if (ancillary.lost) health_.frames_lost = *ancillary.lost;
     if (got == sizeof raw && is_error(raw)) {
       note_error(raw);
       continue;
@@ -195,7 +178,7 @@ bool SocketCan::receive(ReceivedFrame& received) noexcept {
     const bool was_off = health_.state == CanState::kDown || health_.state == CanState::kBusOff;
     if (was_off) health_.state = CanState::kActive;
     const Time now = clock_.now();
-    received = {*frame, ancillary.has_stamp ? arrivals_.arrival(ancillary.stamp, wall_clock(), now) : now};
+    received = {*frame, ancillary.stamp ? arrivals_.arrival(*ancillary.stamp, wall_clock(), now) : now};
     return true;
   }
   return false;

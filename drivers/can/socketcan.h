@@ -29,12 +29,11 @@ class ArrivalClock {
   void note_empty(Time now, Duration wall) noexcept {
     empty_ = now;
     offset_ = wall - now.time_since_epoch();
-    knows_offset_ = true;
   }
   /// When a frame arrived that is stamped `stamp`, read at `now`; `wall` is the wall clock now. Both since its epoch.
   [[nodiscard]] Time arrival(Duration stamp, Duration wall, Time now) const noexcept {
     const Duration longest = std::max<Duration>(now - empty_, Duration{0});
-    const Duration stepped = knows_offset_ ? wall - now.time_since_epoch() - offset_ : Duration{0};
+    const Duration stepped = offset_ ? wall - now.time_since_epoch() - *offset_ : Duration{0};
     if (stepped > kStep || stepped < -kStep) return now - longest;
     return now - std::clamp<Duration>(wall - stamp, Duration{0}, longest);
   }
@@ -44,11 +43,8 @@ class ArrivalClock {
   static constexpr Duration kStep = std::chrono::milliseconds(2);
 
   Time empty_;
-  Duration offset_{0};  ///< of the wall clock from the control time line, when the socket was last empty
-  bool knows_offset_ = false;
+  std::optional<Duration> offset_;  ///< of the wall clock from the control time line, when the socket was last empty
 };
-
-// Linux's own form of frames, filters and errors (linux/can.h, linux/can/error.h), to and from ours.
 
 /// Lets through the data frames (or, where `remote`, the requests for them) whose identifier agrees with `id` where
 /// `mask` has ones.
@@ -92,7 +88,7 @@ class SocketCan final : public CanBus {
   /// Start-up only: hands out what passes these from now on. Throws StartupError.
   void listen(std::span<const CanFilter> filters);
 
-  [[nodiscard]] SendResult send(const CanFrame& frame) noexcept override;
+  [[nodiscard]] bool send(const CanFrame& frame) noexcept override;
   [[nodiscard]] bool receive(ReceivedFrame& received) noexcept override;
   [[nodiscard]] CanHealth health() const noexcept override { return health_; }
 

@@ -1,16 +1,12 @@
 #pragma once
 // The state machine of a drive (CiA 402, IEC 61800-7-201): what the statusword says, what the controlword asks.
-// Process data: objects packed into a frame, and the writes that make a drive do so (CiA 301).
 #include <array>
-#include <cstddef>
+#include <compare>
 #include <cstdint>
 #include <optional>
-#include <span>
-#include <string_view>
 #include <vector>
 
 #include "drivers/can/can_bus.h"
-#include "hal/types/fixed_vector.h"
 
 namespace jaywalk::canopen {
 
@@ -18,38 +14,8 @@ namespace jaywalk::canopen {
 struct ObjectAddress {
   std::uint16_t index = 0;
   std::uint8_t sub = 0;
-  bool operator==(const ObjectAddress&) const = default;
-  constexpr bool operator<(const ObjectAddress& other) const {
-    return index != other.index ? index < other.index : sub < other.sub;
-  }
+  auto operator<=>(const ObjectAddress&) const = default;
 };
-
-/// One object inside a PDO; whole bytes only, 1 to 4 of them.
-struct MappedObject {
-  ObjectAddress address;
-  std::uint8_t bytes = 0;
-
-  /// As it stands in 1600h and 1A00h: index, sub-index, length in bits.
-  [[nodiscard]] constexpr std::uint32_t mapping_word() const noexcept {
-    return static_cast<std::uint32_t>(address.index) << 16U | static_cast<std::uint32_t>(address.sub) << 8U |
-           static_cast<std::uint32_t>(bytes) * 8U;
-  }
-};
-
-using PdoMapping = FixedVector<MappedObject, 8>;
-
-/// Bytes that the mapping fills; a PDO has at most 8.
-[[nodiscard]] std::size_t length_of(const PdoMapping& mapping) noexcept;
-
-/// Packs one value an object (two's complement, cut to its bytes) under `id`. Nothing where counts or lengths do not
-/// fit. A frame's unused bytes are 0.
-[[nodiscard]] std::optional<CanFrame> pack(const PdoMapping& mapping, std::uint32_t id,
-                                           std::span<const std::uint32_t> values) noexcept;
-
-/// The values of a frame, each with zeros above its bytes. Nothing where the frame is shorter than the mapping; a
-/// longer one is taken, as CiA 301 has it.
-[[nodiscard]] std::optional<FixedVector<std::uint32_t, 8>> unpack(const PdoMapping& mapping,
-                                                                  const CanFrame& frame) noexcept;
 
 /// One write to a drive's object dictionary, of 1, 2 or 4 bytes.
 struct ObjectWrite {
@@ -59,29 +25,14 @@ struct ObjectWrite {
   bool operator==(const ObjectWrite&) const = default;
 };
 
-using ObjectWrites = FixedVector<ObjectWrite, 64>;
-
-/// Where a PDO's settings live: receive PDO n at 1400h + n - 1 and 1600h + n - 1, transmit at 1800h and 1A00h.
-struct PdoSetup {
-  std::uint16_t communication_index = 0;
-  std::uint16_t mapping_index = 0;
-  std::uint32_t id = 0;                ///< COB-ID, 11 bits
-  std::uint8_t transmission_type = 0;  ///< 1: with every SYNC; 255: at once
-  PdoMapping mapping;
-};
-
-/// Appends the writes that switch the PDO off, map it anew and switch it on. False where they do not fit.
-[[nodiscard]] bool append_setup(const PdoSetup& setup, ObjectWrites& writes) noexcept;
+/// The low bytes of `value` that an object has.
+[[nodiscard]] constexpr std::uint32_t cut(std::uint32_t value, std::uint8_t bytes) noexcept {
+  return bytes >= 4 ? value : value & ((1U << (8U * bytes)) - 1U);
+}
 
 // The short messages of CANopen (CiA 301): network management, heartbeat, SYNC, emergency. Node ids are 1 to 127.
 
-enum class NmtCommand : std::uint8_t {
-  kStart = 0x01,
-  kStop = 0x02,
-  kPreOperational = 0x80,
-  kResetNode = 0x81,
-  kResetCommunication = 0x82
-};
+enum class NmtCommand : std::uint8_t { kStart = 0x01, kStop = 0x02, kPreOperational = 0x80 };
 
 enum class NmtState : std::uint8_t { kBootUp = 0x00, kStopped = 0x04, kOperational = 0x05, kPreOperational = 0x7F };
 
@@ -91,23 +42,11 @@ enum class NmtState : std::uint8_t { kBootUp = 0x00, kStopped = 0x04, kOperation
 /// What `node` says about itself once in its heartbeat time.
 [[nodiscard]] CanFrame heartbeat_frame(std::uint8_t node, NmtState state) noexcept;
 
-struct Heartbeat {
-  std::uint8_t node = 0;
-  NmtState state = NmtState::kBootUp;
-};
+/// State in a heartbeat or boot-up message of `node`; nothing for another frame and for a state that does not exist.
+[[nodiscard]] std::optional<NmtState> heartbeat_in(const CanFrame& frame, std::uint8_t node) noexcept;
 
-/// Nothing where `frame` is no heartbeat or boot-up message, or names a state that does not exist.
-[[nodiscard]] std::optional<Heartbeat> decode_heartbeat(const CanFrame& frame) noexcept;
-
-struct Emergency {
-  std::uint8_t node = 0;
-  std::uint16_t error_code = 0;  ///< 0: the device reports that all errors are gone
-};
-
-/// Nothing where `frame` is no emergency message (a SYNC has the same function code and node 0).
-[[nodiscard]] std::optional<Emergency> decode_emergency(const CanFrame& frame) noexcept;
-/// The class of an emergency's error code (CiA 301): "current", "voltage", ...
-[[nodiscard]] std::string_view emergency_class(std::uint16_t error_code) noexcept;
+/// Error code in an emergency message of `node`, 0: all errors are gone; nothing for another frame.
+[[nodiscard]] std::optional<std::uint16_t> emergency_in(const CanFrame& frame, std::uint8_t node) noexcept;
 
 /// The value for one entry of 1016h: `node` is missed after `time_ms`.
 [[nodiscard]] constexpr std::uint32_t heartbeat_consumer_entry(std::uint8_t node, std::uint16_t time_ms) noexcept {
@@ -134,7 +73,6 @@ enum class DriveState : std::uint8_t {
 };
 
 [[nodiscard]] DriveState state_of(std::uint16_t statusword) noexcept;
-[[nodiscard]] std::string_view name(DriveState state) noexcept;
 
 enum class DriveGoal : std::uint8_t {
   kOff,       ///< no torque: the wheels can be pushed unless a brake holds them
@@ -147,6 +85,9 @@ enum class DriveGoal : std::uint8_t {
 /// A fault is left only by a rising edge of the reset bit: it is set where `reset_fault`, which is to be true for one
 /// call after a person's reset. A quick stop that was asked for is not gone back on: its way leads through kOff.
 [[nodiscard]] std::uint16_t controlword_towards(DriveGoal goal, DriveState state, bool reset_fault) noexcept;
+
+/// Process data of receive PDO 1: controlword, and target velocity in counts/s.
+[[nodiscard]] CanFrame command_frame(std::uint8_t node, std::uint16_t controlword, std::int32_t target) noexcept;
 
 /// Process data that have drives quick-stop, which are set up as CanopenDriveBase does, and the SYNC with which they
 /// take them.

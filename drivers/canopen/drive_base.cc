@@ -10,16 +10,15 @@ namespace jaywalk::canopen {
 namespace {
 
 constexpr Duration kArmingStep = std::chrono::milliseconds(1);
-
-WheelAxis axis_of(const DriveBaseSetup& setup, std::size_t side) {
-  return {setup.axes[side], std::chrono::milliseconds(setup.settings.heartbeat_ms)};
-}
+constexpr Duration kListening = std::chrono::milliseconds(300);  ///< for another master, before anything is sent
+constexpr Duration kSettling =
+    std::chrono::milliseconds(200);  ///< what a drive may take to leave a fault after a reset
 
 DriveProof proof_for(CanBus& bus, const DriveBaseSetup& setup, std::size_t side) {
-  DriveProofSetup proof{setup.settings, setup.answer_timeout, setup.starting, setup.allow_unproved};
+  DriveSettings settings = setup.settings;
   const double counts = setup.stop.tolerance_radps * std::fabs(setup.axes[side].per_rad);
-  proof.settings.standstill = static_cast<std::uint32_t>(std::fmin(counts, 2147483647.0));
-  return {bus, setup.axes[side].node, proof};
+  settings.standstill = static_cast<std::uint32_t>(std::fmin(counts, 2147483647.0));
+  return {bus, setup.axes[side].node, settings, setup.allow_unproved};
 }
 
 }  // namespace
@@ -28,11 +27,12 @@ CanopenDriveBase::CanopenDriveBase(CanBus& bus, Clock& clock, const DriveBaseSet
     : bus_(bus),
       clock_(clock),
       setup_(setup),
-      axes_{axis_of(setup, 0), axis_of(setup, 1)},
+      axes_{WheelAxis(setup.axes[0], std::chrono::milliseconds(setup.settings.heartbeat_ms)),
+            WheelAxis(setup.axes[1], std::chrono::milliseconds(setup.settings.heartbeat_ms))},
       proofs_{proof_for(bus, setup, 0), proof_for(bus, setup, 1)},
       masters_(masters_identifiers(setup.settings.controller_node, {setup.axes[0].node, setup.axes[1].node})),
       ladder_(setup.stop) {
-  require_axes(setup.axes, {"node", 1, 127, setup.settings.controller_node});
+  require_axes(setup.axes, "node", 1, 127, setup.settings.controller_node);
 }
 
 std::vector<std::string> CanopenDriveBase::arm() {
@@ -71,14 +71,14 @@ void CanopenDriveBase::conduct(ArmingProof& proof) {
 std::string CanopenDriveBase::inspect(std::size_t side) {
   const std::uint8_t node = axes_[side].setup().node;
   const std::string who = "node " + std::to_string(node);
-  ArmingProof identity(bus_, node, identity_items(), setup_.answer_timeout);
+  ArmingProof identity(bus_, node, identity_items());
   conduct(identity);
   if (identity.lines()[0].verdict == ProofVerdict::kSilent) throw StartupError(who + ": no answer", kSilentDrive);
   if (!speaks_profile_velocity(identity.lines()))
     throw StartupError(who + ": is no CiA 402 drive with profile velocity, by its 1000h and 6502h", "use one that is");
-  ArmingProof::Items items = proof_items(node, setup_.settings);
-  for (ProofItem& item : items) item.demand = ProofDemand::kHeld;
-  ArmingProof settings(bus_, node, items, setup_.answer_timeout);
+  ArmingProof::Lines items = proof_items(node, setup_.settings);
+  for (ProofLine& item : items) item.demand = ProofDemand::kHeld;
+  ArmingProof settings(bus_, node, items);
   conduct(settings);
   const std::size_t behaviours = behaviour_items(setup_.settings).size();  // the first of all
   std::string lacking;
@@ -110,7 +110,7 @@ void CanopenDriveBase::begin_proof() noexcept {
 // A step at a time; of what comes next, another master's frames may still say no.
 void CanopenDriveBase::follow_proof() noexcept {
   if (phase_ == Phase::kListening) {
-    if (now() - began_ < setup_.listening) return;
+    if (now() - began_ < kListening) return;
     phase_ = Phase::kProving;
     for (DriveProof& proof : proofs_) proof.begin(now());
     return;
@@ -132,7 +132,7 @@ void CanopenDriveBase::begin_operation() noexcept {
   bus_watch_.begin(bus_.health());
   const bool heard_all = std::exchange(frames_lost_, bus_.health().frames_lost) == bus_.health().frames_lost;
   for (std::size_t k = 0; k < axes_.size(); ++k) {
-    const bool counts_on = axes_[k].begin(proofs_[k].heard(), began_ + setup_.settling, heard_all);
+    const bool counts_on = axes_[k].begin(proofs_[k].heard(), began_ + kSettling, heard_all);
     counts_on_ = counts_on_ && counts_on;
   }
 }
@@ -151,15 +151,15 @@ WheelState CanopenDriveBase::latest() noexcept {
 
 void CanopenDriveBase::take(const ReceivedFrame& received) noexcept {
   if (phase_ != Phase::kUnproved && is_foreign(received)) note_foreign(received.frame);
-  const auto emergency = decode_emergency(received.frame);
   for (std::size_t k = 0; k < axes_.size(); ++k) {
     axes_[k].take(received);
     if (phase_ == Phase::kProved && axes_[k].has_twin()) note_foreign(received.frame);
     if (phase_ == Phase::kProving) proofs_[k].on_frame(received);
     // Before that it tells of what was: that it missed the heartbeat.
-    const bool tells = phase_ == Phase::kProved && emergency && emergency->error_code != 0;
-    if (!tells || emergency->node != axes_[k].setup().node) continue;
-    note({DriveFaultKind::kEmergency, emergency->node, emergency->error_code});
+    const std::uint8_t node = axes_[k].setup().node;
+    const std::uint16_t error = emergency_in(received.frame, node).value_or(0);
+    if (phase_ != Phase::kProved || error == 0) continue;
+    note({DriveFaultKind::kEmergency, node, error});
     latch(DriveTrouble::kEmergency);
   }
   publish(received.stamp);
@@ -176,7 +176,7 @@ bool CanopenDriveBase::is_foreign(const ReceivedFrame& received) const noexcept 
   if (std::find(masters_.begin(), masters_.end(), frame.id) != masters_.end()) return true;
   // An answer to an SDO request of another's. Ours may come as long as a transfer takes.
   const bool asks = phase_ == Phase::kProving || trouble_ != DriveTrouble::kNone;
-  if (asks || received.stamp - began_ <= setup_.answer_timeout) return false;
+  if (asks || received.stamp - began_ <= kAnswerTimeout) return false;
   return std::any_of(axes_.begin(), axes_.end(),
                      [&](const WheelAxis& axis) { return frame.id == 0x580U + axis.setup().node; });
 }
@@ -197,7 +197,7 @@ void CanopenDriveBase::watch() noexcept {
   if (phase_ != Phase::kProved) return;
   if (!bus_watch_.is_well(bus_.health())) latch(DriveTrouble::kBusUnwell);
   for (WheelAxis& axis : axes_) {
-    const DriveTrouble trouble = axis.trouble(now(), {setup_.silence_limit, setup_.stop.fresh, setup_.showing});
+    const DriveTrouble trouble = axis.trouble(now(), setup_.silence_limit, setup_.stop.fresh);
     if (trouble == DriveTrouble::kNotProved) note({DriveFaultKind::kMode, axis.setup().node, axis.mode()});
     if (trouble != DriveTrouble::kNone) latch(trouble);
   }
@@ -226,14 +226,14 @@ void CanopenDriveBase::command(const WheelCommand& command) noexcept {
   const bool is_zero = command.left_radps == 0.0 && command.right_radps == 0.0;
   if (is_zero && is_proved()) awaits_zero_ = false;
   const bool moves = !awaits_zero_ && follow_speeds() && finite;  // both wheels or none
-  cycle(awaits_zero_ ? DriveGoal::kOff : DriveGoal::kEnabled, is_zero || !finite, moves ? command.left_radps : 0.0,
-        moves ? command.right_radps : 0.0);
+  const std::array speeds_radps{moves ? command.left_radps : 0.0, moves ? command.right_radps : 0.0};
+  cycle(awaits_zero_ ? DriveGoal::kOff : DriveGoal::kEnabled, is_zero || !finite, speeds_radps);
 }
 
 void CanopenDriveBase::disarm() noexcept {
   awaits_zero_ = true;
   if (is_proving()) phase_ = Phase::kUnproved;
-  cycle(are_at_rest() ? DriveGoal::kOff : DriveGoal::kQuickStop, true, 0.0, 0.0);
+  cycle(are_at_rest() ? DriveGoal::kOff : DriveGoal::kQuickStop, true, {});
 }
 
 bool CanopenDriveBase::are_at_rest() const noexcept {
@@ -242,21 +242,20 @@ bool CanopenDriveBase::are_at_rest() const noexcept {
   });
 }
 
-void CanopenDriveBase::cycle(DriveGoal goal, bool stopping, double left_radps, double right_radps) noexcept {
+void CanopenDriveBase::cycle(DriveGoal goal, bool stopping, const std::array<double, 2>& speeds_radps) noexcept {
   if (phase_ != Phase::kProved && trouble_ == DriveTrouble::kNone)
     return;  // neither drive is armed, or a proof is under way
   const bool in_trouble = trouble_ != DriveTrouble::kNone;
   std::array<WheelFeedback, 2> felt{axes_[0].feedback(), axes_[1].feedback()};
-  felt[0].told_radps = left_radps;
-  felt[1].told_radps = right_radps;
+  for (std::size_t k = 0; k < felt.size(); ++k) felt[k].told_radps = speeds_radps[k];
   const StopStage stage = ladder_.update(now(), stopping || in_trouble, in_trouble, felt);
   if (stage != StopStage::kNone) latch(DriveTrouble::kStopUnconfirmed);
   if (stage == StopStage::kSilent) return;
   // A drive that was not proved is not fed, nor is one that did not obey a quick stop.
   const bool feeds = phase_ == Phase::kProved && stage != StopStage::kNetworkStop;
   if (feeds) send(heartbeat_frame(setup_.settings.controller_node, NmtState::kOperational));
-  if (stage == StopStage::kNone) return send_targets(goal, left_radps, right_radps);
-  send_targets(DriveGoal::kQuickStop, 0.0, 0.0);
+  if (stage == StopStage::kNone) return send_targets(goal, speeds_radps);
+  send_targets(DriveGoal::kQuickStop, {});
   for (const WheelAxis& axis : axes_)
     if (stage == StopStage::kNetworkStop)
       send(nmt_frame(NmtCommand::kStop, axis.setup().node));
@@ -264,9 +263,8 @@ void CanopenDriveBase::cycle(DriveGoal goal, bool stopping, double left_radps, d
       send(axis.quick_stop_request());
 }
 
-void CanopenDriveBase::send_targets(DriveGoal goal, double left_radps, double right_radps) noexcept {
-  send(axes_[0].target(goal, left_radps));
-  send(axes_[1].target(goal, right_radps));
+void CanopenDriveBase::send_targets(DriveGoal goal, const std::array<double, 2>& speeds_radps) noexcept {
+  for (std::size_t k = 0; k < axes_.size(); ++k) send(axes_[k].target(goal, speeds_radps[k]));
   send(sync_frame());
   for (WheelAxis& axis : axes_) axis.note_sync(now());
 }

@@ -9,17 +9,9 @@
 #include "drivers/canopen/cia402.h"
 #include "drivers/canopen/drive_proof.h"
 #include "drivers/wired_drive.h"
-#include "hal/types/fixed_vector.h"
 #include "hal/types/wheels.h"
 
 namespace jaywalk::canopen {
-
-/// When a drive that was proved counts as lost.
-struct AxisLimits {
-  Duration silence{0};     ///< without a heartbeat
-  Duration unanswered{0};  ///< without process data, from the first SYNC that it did not answer
-  Duration showing{0};     ///< from enabling until it shows its mode
-};
 
 /// State of one drive by its frames (network state, power state, mode, speed and position of its wheel), and the frame
 /// that commands it. Never allocates.
@@ -27,7 +19,7 @@ class WheelAxis {
  public:
   WheelAxis() = default;
   /// `heartbeat`: period of the drive's own, 1017h.
-  WheelAxis(const CanAxis& setup, Duration heartbeat) noexcept;
+  WheelAxis(const CanAxis& setup, Duration heartbeat) noexcept : setup_(setup), heartbeat_(heartbeat) {}
 
   /// Any frame of the bus; those that are not this drive's are passed over.
   void take(const ReceivedFrame& received) noexcept;
@@ -39,8 +31,9 @@ class WheelAxis {
   void note_sync(Time now) noexcept;
   /// Since begin() its node number spoke more often than one drive does: a second drive has it.
   [[nodiscard]] bool has_twin() const noexcept { return has_twin_; }
-  /// The drive's fault by its frames since begin(); kNone where there is none.
-  [[nodiscard]] DriveTrouble trouble(Time now, const AxisLimits& limits) noexcept;
+  /// The drive's fault by its frames since begin(); kNone where there is none. It counts as lost `silence` after its
+  /// last heartbeat, and `unanswered` after the first SYNC that it answered with no process data.
+  [[nodiscard]] DriveTrouble trouble(Time now, Duration silence, Duration unanswered) noexcept;
   /// Whether its heartbeat is late. Booted up anew it may have none before it is set up.
   [[nodiscard]] bool is_silent(Time now, Duration limit) const noexcept {
     return network_ != NmtState::kBootUp && heard_ != kNever && age(heard_, now) > limit;
@@ -68,18 +61,16 @@ class WheelAxis {
   void take_heartbeat(NmtState state, Time stamp) noexcept;
   void take_status(const ReceivedFrame& received) noexcept;
   void take_position(const ReceivedFrame& received) noexcept;
-  [[nodiscard]] DriveTrouble mode_trouble(Time now, Duration showing, bool was_enabled) noexcept;
+  [[nodiscard]] DriveTrouble mode_trouble(Time now, bool was_enabled) noexcept;
 
   CanAxis setup_;
   Duration heartbeat_{};
-  PdoMapping command_mapping_, status_mapping_, position_mapping_;
   // What it says.
   NmtState network_ = NmtState::kBootUp;
   DriveState state_ = DriveState::kUnknown;
   std::uint8_t mode_ = 0;
   WheelFeedback feedback_;
-  std::uint32_t raw_position_ = 0;
-  bool has_position_ = false;
+  std::optional<std::uint32_t> raw_position_;
   Time placed_ = kNever;    ///< of the last position
   bool restarted_ = false;  ///< since begin(); or its position jumped
   std::int64_t counts_ = 0;
@@ -98,7 +89,7 @@ class WheelAxis {
 // Frames on the drives' bus that only a master sends (CiA 301). Own frames do not come back (can_bus.h): one that comes
 // in was sent by another program or machine.
 
-using Identifiers = FixedVector<std::uint32_t, 16>;
+using Identifiers = std::array<std::uint32_t, 14>;
 
 /// NMT commands, SYNC, LSS; the heartbeat under the controller's node; RPDOs 1 to 4 and SDO requests of both drives.
 [[nodiscard]] Identifiers masters_identifiers(std::uint8_t controller_node,
@@ -111,12 +102,7 @@ struct DriveBaseSetup {
   std::array<CanAxis, 2> axes;  ///< left, right: counts a radian of the wheel
   DriveSettings settings;
   StopLimits stop;
-  Duration listening = std::chrono::milliseconds(300);       ///< for another master, before anything is sent
-  Duration answer_timeout = std::chrono::milliseconds(100);  ///< of one transfer while arming
-  Duration starting = std::chrono::milliseconds(500);        ///< from NMT start until a drive says it is operational
-  Duration silence_limit = std::chrono::milliseconds(150);   ///< a drive that says no heartbeat for so long is lost
-  Duration settling = std::chrono::milliseconds(200);        ///< what a drive may take to leave a fault after a reset
-  Duration showing = std::chrono::milliseconds(500);         ///< from enabling until a drive shows its mode (6061h)
+  Duration silence_limit = std::chrono::milliseconds(150);  ///< a drive that says no heartbeat for so long is lost
   bool allow_unproved = false;  ///< arms although a drive did not prove that it stops by itself
 };
 
@@ -127,17 +113,13 @@ struct DriveBaseSetup {
 /// both drives are quick-stopped, and the stop is held against the wheels' feedback: where that does not confirm it,
 /// they are NMT-stopped, and then nothing is sent at all until reset(), so that their own watchdogs act (SAFETY 14).
 ///
-/// The wheels turn only after the whole proof of both drives and a command of zero. arm() waits for that proof; after a
-/// trouble reset() begins it anew, and it goes on with every latest() and command(). Meanwhile the drives have no
-/// torque and no heartbeat, and there is no trouble. Thread: one.
+/// While both drives are proved they have no torque and no heartbeat, and there is no trouble. Thread: one.
 class CanopenDriveBase final : public WiredDrive {
  public:
   /// `bus` and `clock` outlive it. Throws StartupError where the setup cannot be.
   CanopenDriveBase(CanBus& bus, Clock& clock, const DriveBaseSetup& setup);
 
-  /// Start-up only, waits up to some seconds: listens for another master, sets up and proves both drives, then starts
-  /// their process data. Throws StartupError that names the first thing not proved, unless allow_unproved.
-  /// Returns what each drive said, one line a setting, for the record.
+  /// Listens for another master, sets up and proves both drives, then starts their process data.
   std::vector<std::string> arm() override;
   [[nodiscard]] std::string inspect(std::size_t side) override;
 
@@ -150,8 +132,6 @@ class CanopenDriveBase final : public WiredDrive {
     return phase_ == Phase::kProved && trouble_ == DriveTrouble::kNone;
   }
   [[nodiscard]] std::optional<CanFrame> foreign_frame() const noexcept override { return foreign_; }
-  /// A person's reset edge: forgets the trouble and, where there was one, begins the proof of both drives; the drives
-  /// are enabled again at the next command of zero after it. A proof that is under way goes on.
   [[nodiscard]] bool is_silent() const noexcept override {
     return axes_[0].is_silent(clock_.now(), setup_.silence_limit) ||
            axes_[1].is_silent(clock_.now(), setup_.silence_limit);
@@ -164,7 +144,7 @@ class CanopenDriveBase final : public WiredDrive {
  private:
   enum class Phase : std::uint8_t { kUnproved, kListening, kProving, kProved };
 
-  [[nodiscard]] Time now() noexcept { return clock_.now(); }
+  [[nodiscard]] Time now() const noexcept { return clock_.now(); }
   /// Lets a proof of the caller's run to its end.
   void conduct(ArmingProof& proof);
   [[noreturn]] void refuse() const;
@@ -187,10 +167,10 @@ class CanopenDriveBase final : public WiredDrive {
   }
 
   /// A cycle on the bus, as far as the stop has come.
-  void cycle(DriveGoal goal, bool stopping, double left_radps, double right_radps) noexcept;
-  void send_targets(DriveGoal goal, double left_radps, double right_radps) noexcept;
+  void cycle(DriveGoal goal, bool stopping, const std::array<double, 2>& speeds_radps) noexcept;
+  void send_targets(DriveGoal goal, const std::array<double, 2>& speeds_radps) noexcept;
   void send(const CanFrame& frame) noexcept {
-    if (bus_.send(frame) != SendResult::kQueued) latch(DriveTrouble::kBusRefused);
+    if (!bus_.send(frame)) latch(DriveTrouble::kBusRefused);
   }
   [[nodiscard]] bool are_at_rest() const noexcept;
   /// Both drives are enabled and show the mode that takes speeds.

@@ -10,6 +10,9 @@
 
 namespace jaywalk::canopen {
 
+/// Longest time of one transfer while arming.
+inline constexpr Duration kAnswerTimeout = std::chrono::milliseconds(100);
+
 /// What an object is to show.
 enum class ProofDemand : std::uint8_t {
   kWritten,     ///< the wanted value is written and read back
@@ -18,14 +21,6 @@ enum class ProofDemand : std::uint8_t {
   kHeld,        ///< the drive keeps it itself: it is read, and is the wanted value
   kAtMost,      ///< it is read; a signed number of four bytes, within plus and minus the wanted value
   kKnown        ///< it is read, to be remembered: any value, or that the drive has no such object
-};
-
-/// One setting that a drive must be shown to have before it may move.
-struct ProofItem {
-  ObjectWrite wanted;
-  ProofDemand demand = ProofDemand::kWritten;
-  const char* what_for = "";
-  bool needed_to_drive = false;  ///< also where stopping need not be proved
 };
 
 enum class ProofVerdict : std::uint8_t {
@@ -37,8 +32,12 @@ enum class ProofVerdict : std::uint8_t {
   kSilent    ///< no answer, or the bus took no frame
 };
 
+/// One setting that a drive must be shown to have before it may move, and what it showed.
 struct ProofLine {
-  ProofItem item;
+  ObjectWrite wanted;
+  ProofDemand demand = ProofDemand::kWritten;
+  const char* what_for = "";
+  bool needed_to_drive = false;  ///< also where stopping need not be proved
   ProofVerdict verdict = ProofVerdict::kOpen;
   std::uint32_t said = 0;  ///< the value read, or the abort code
 };
@@ -49,11 +48,11 @@ struct ProofLine {
 /// Never waits: call on_frame with every frame and poll until done().
 class ArmingProof {
  public:
-  using Items = FixedVector<ProofItem, 64>;
   using Lines = FixedVector<ProofLine, 64>;
 
   /// `bus` outlives the proof.
-  ArmingProof(CanBus& bus, std::uint8_t node, const Items& items, Duration timeout) noexcept;
+  ArmingProof(CanBus& bus, std::uint8_t node, const Lines& lines) noexcept
+      : client_(bus, node, kAnswerTimeout), lines_(lines) {}
 
   void on_frame(const CanFrame& frame, Time now) noexcept { client_.on_frame(frame, now); }
   void poll(Time now) noexcept;
@@ -65,8 +64,6 @@ class ArmingProof {
 
   void begin_write(Time now) noexcept;
   void begin_read(Time now) noexcept;
-  /// The value that was read, cut to the item's bytes.
-  [[nodiscard]] std::uint32_t said() const noexcept;
   void conclude_read() noexcept;
   [[nodiscard]] ProofVerdict verdict_of(std::uint32_t said, bool has_all) const noexcept;
   void conclude(ProofVerdict verdict, std::uint32_t said) noexcept;
@@ -95,24 +92,19 @@ struct DriveSettings {
   std::uint32_t standstill = 0;               ///< a wheel that says no more than this (counts/s) stands
 };
 
-/// Receive PDO 1 of `node`: controlword and target velocity.
-[[nodiscard]] PdoSetup command_pdo(std::uint8_t node) noexcept;
-/// Transmit PDO 1: statusword, velocity and the mode shown. Both PDOs go at every SYNC.
-[[nodiscard]] PdoSetup status_pdo(std::uint8_t node) noexcept;
-/// Transmit PDO 2: position.
-[[nodiscard]] PdoSetup position_pdo(std::uint8_t node) noexcept;
-
 /// How the drive is to behave: heartbeats, what happens when they fail, ramps, mode.
-[[nodiscard]] ArmingProof::Items behaviour_items(const DriveSettings& settings) noexcept;
-/// These, and the PDOs, which are switched off, mapped and switched on.
-[[nodiscard]] ArmingProof::Items proof_items(std::uint8_t node, const DriveSettings& settings) noexcept;
+[[nodiscard]] ArmingProof::Lines behaviour_items(const DriveSettings& settings) noexcept;
+/// These, and the PDOs, which are switched off, mapped and switched on. All go at every SYNC: receive PDO 1 with
+/// controlword and target velocity, transmit PDO 1 with statusword, velocity and mode shown, transmit PDO 2 with
+/// position.
+[[nodiscard]] ArmingProof::Lines proof_items(std::uint8_t node, const DriveSettings& settings) noexcept;
 
 /// All that a drive must show before it may turn a wheel: these, that it stands, and its identity (1018h), by which
 /// another drive with the same number is told when it is proved again.
-[[nodiscard]] ArmingProof::Items whole_proof(std::uint8_t node, const DriveSettings& settings) noexcept;
+[[nodiscard]] ArmingProof::Lines whole_proof(std::uint8_t node, const DriveSettings& settings) noexcept;
 
 /// What tells a CiA 402 drive: its device type (1000h), and its modes (6502h), to be read alone.
-[[nodiscard]] ArmingProof::Items identity_items() noexcept;
+[[nodiscard]] ArmingProof::Lines identity_items() noexcept;
 /// Of the answers to these.
 [[nodiscard]] bool speaks_profile_velocity(const ArmingProof::Lines& identity) noexcept;
 
@@ -122,13 +114,6 @@ inline constexpr const char* kSilentDrive = "see to its cable, its power, its no
 [[nodiscard]] const char* remedy_for(const ProofLine& line) noexcept;
 /// True where allow_unproved may arm the drive: the line is about stopping, and the drive answered that it cannot.
 [[nodiscard]] bool may_be_allowed(const ProofLine& line) noexcept;
-
-struct DriveProofSetup {
-  DriveSettings settings;
-  Duration answer_timeout{0};   ///< of one transfer
-  Duration starting{0};         ///< from NMT start until a heartbeat says "operational"
-  bool allow_unproved = false;  ///< what the drive could not prove the first time it need not prove later
-};
 
 /// The whole proof of one drive, from whatever state it is in to Operational: NMT pre-operational, settings and process
 /// data written and read back, standstill, identity, NMT start, and a heartbeat that says so (SAFETY 4, 15). At arming
@@ -141,9 +126,10 @@ class DriveProof {
  public:
   enum class State : std::uint8_t { kIdle, kAsking, kStarting, kPassed, kFailed };
 
-  /// `bus` outlives it; `node` is 1 to 127.
-  DriveProof(CanBus& bus, std::uint8_t node, const DriveProofSetup& setup) noexcept
-      : bus_(bus), node_(node), setup_(setup) {}
+  /// `bus` outlives it; `node` is 1 to 127. `allow_unproved`: what the drive could not prove the first time it need not
+  /// prove later.
+  DriveProof(CanBus& bus, std::uint8_t node, const DriveSettings& settings, bool allow_unproved) noexcept
+      : bus_(bus), node_(node), settings_(settings), allow_unproved_(allow_unproved) {}
 
   void begin(Time now) noexcept;
   void on_frame(const ReceivedFrame& received) noexcept;
@@ -166,7 +152,8 @@ class DriveProof {
 
   CanBus& bus_;
   std::uint8_t node_;
-  DriveProofSetup setup_;
+  DriveSettings settings_;
+  bool allow_unproved_;
   State state_ = State::kIdle;
   std::optional<ArmingProof> asked_;
   std::optional<ArmingProof::Lines> passed_first_;

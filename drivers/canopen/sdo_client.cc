@@ -12,7 +12,7 @@ constexpr std::size_t kAddressed = 4;  ///< bytes of command and address; what f
 // The command byte: a specifier in bits 7 to 5, and beside it what the transfer's step needs (CiA 301).
 constexpr std::uint8_t kAbort = 0x80, kReadRequest = 0x40, kReadSegmentRequest = 0x60, kWriteRequest = 0x20;
 constexpr std::uint8_t kExpeditedBit = 0x02, kSizeBit = 0x01, kToggleBit = 0x10, kLastBit = 0x01;
-constexpr std::uint8_t kReadAnswer = 2, kWriteAnswer = 3, kReadSegmentAnswer = 0, kWriteSegmentAnswer = 1;
+constexpr std::uint8_t kReadAnswer = 2, kWriteAnswer = 3, kReadSegmentAnswer = 0;
 
 constexpr std::uint8_t specifier(const CanFrame& frame) { return static_cast<std::uint8_t>(frame.bytes[0] >> 5U); }
 constexpr bool has(const CanFrame& frame, std::uint8_t bit) { return (frame.bytes[0] & bit) != 0; }
@@ -60,25 +60,16 @@ constexpr std::array kReasons{
 
 bool SdoClient::read(ObjectAddress address, Time now) noexcept {
   if (status_ == SdoStatus::kBusy) return false;
-  size_ = 0;
   start(Phase::kReadStart, address, now);
   send_addressed(kReadRequest, 0);
   return true;
 }
 
-bool SdoClient::write(ObjectAddress address, wire::Bytes value, Time now) noexcept {
-  if (status_ == SdoStatus::kBusy || value.empty() || value.size() > kMaxBytes) return false;
-  std::copy(value.begin(), value.end(), buffer_.begin());
-  size_ = value.size();
-  start(Phase::kWriteStart, address, now);
-  if (size_ > kExpedited) {
-    send_addressed(kWriteRequest | kSizeBit, static_cast<std::uint32_t>(size_));
-    return true;
-  }
-  std::array<std::uint8_t, kExpedited> padded{};
-  std::copy(value.begin(), value.end(), padded.begin());
-  const auto unused = static_cast<std::uint8_t>((kExpedited - size_) << 2U);
-  send_addressed(kWriteRequest | kExpeditedBit | kSizeBit | unused, wire::little_endian<std::uint32_t>(padded));
+bool SdoClient::write(const ObjectWrite& object, Time now) noexcept {
+  if (status_ == SdoStatus::kBusy) return false;
+  start(Phase::kWrite, object.address, now);
+  const auto unused = static_cast<std::uint8_t>((kExpedited - object.bytes) << 2U);
+  send_addressed(kWriteRequest | kExpeditedBit | kSizeBit | unused, cut(object.value, object.bytes));
   return true;
 }
 
@@ -89,8 +80,8 @@ void SdoClient::start(Phase phase, ObjectAddress address, Time now) noexcept {
   heard_ = now;
   abort_code_ = 0;
   toggle_ = false;
-  has_announced_size_ = false;
-  sent_ = 0;
+  announced_size_.reset();
+  size_ = 0;
 }
 
 void SdoClient::poll(Time now) noexcept {
@@ -101,17 +92,18 @@ void SdoClient::on_frame(const CanFrame& frame, Time now) noexcept {
   if (status_ != SdoStatus::kBusy || frame.extended || frame.remote || frame.id != kAnswerBase + node_) return;
   // What names another object belongs to a transfer that was given up before this one began.
   const bool is_abort = frame.bytes[0] == kAbort;
-  const bool names_object = is_abort || phase_ == Phase::kReadStart || phase_ == Phase::kWriteStart;
+  const bool names_object = is_abort || phase_ != Phase::kReadSegments;
   if (frame.size < (names_object ? kAddressed : 1)) return abort_here(kAbortLength);
-  if (names_object && !answers_address(frame)) return;
+  const ObjectAddress named{wire::little_endian<std::uint16_t>(wire::Bytes(frame.bytes).subspan(1)), frame.bytes[3]};
+  if (names_object && named != address_) return;
   heard_ = now;
   if (is_abort)
     return finish(SdoStatus::kAbortedByDrive, wire::little_endian<std::uint32_t>(std::span(frame.bytes).subspan(4)));
   switch (phase_) {
     case Phase::kReadStart: return on_read_start(frame);
     case Phase::kReadSegments: return on_read_segment(frame);
-    case Phase::kWriteStart: return on_write_start(frame);
-    case Phase::kWriteSegments: return on_write_segment(frame);
+    case Phase::kWrite:
+      return specifier(frame) == kWriteAnswer ? finish(SdoStatus::kDone) : abort_here(kAbortUnknownCommand);
     case Phase::kNone: return;
   }
 }
@@ -126,9 +118,8 @@ void SdoClient::on_read_start(const CanFrame& frame) noexcept {
     if (append(body.first(used))) finish(SdoStatus::kDone);
     return;
   }
-  has_announced_size_ = has(frame, kSizeBit);
-  announced_size_ = wire::little_endian<std::uint32_t>(body);
-  if (has_announced_size_ && announced_size_ > kMaxBytes) return abort_here(kAbortNoMemory);
+  if (has(frame, kSizeBit)) announced_size_ = wire::little_endian<std::uint32_t>(body);
+  if (announced_size_ > kMaxBytes) return abort_here(kAbortNoMemory);
   phase_ = Phase::kReadSegments;
   ask_segment();
 }
@@ -145,38 +136,8 @@ void SdoClient::on_read_segment(const CanFrame& frame) noexcept {
   if (!append(frame.payload().subspan(1, used))) return;
   toggle_ = !toggle_;
   if (!has(frame, kLastBit)) return ask_segment();
-  if (has_announced_size_ && size_ != announced_size_) return abort_here(kAbortLength);
+  if (announced_size_ && size_ != announced_size_) return abort_here(kAbortLength);
   finish(SdoStatus::kDone);
-}
-
-void SdoClient::on_write_start(const CanFrame& frame) noexcept {
-  if (specifier(frame) != kWriteAnswer) return abort_here(kAbortUnknownCommand);
-  if (size_ <= kExpedited) return finish(SdoStatus::kDone);
-  phase_ = Phase::kWriteSegments;
-  send_segment();
-}
-
-void SdoClient::send_segment() noexcept {
-  const std::size_t count = std::min(kSegment, size_ - sent_);
-  std::array<std::uint8_t, 8> bytes{};
-  std::copy_n(buffer_.begin() + static_cast<std::ptrdiff_t>(sent_), count, bytes.begin() + 1);
-  sent_ += count;
-  bytes[0] = static_cast<std::uint8_t>((toggle_ ? kToggleBit : 0U) | ((kSegment - count) << 1U) |
-                                       (sent_ == size_ ? kLastBit : 0U));
-  send(bytes);
-}
-
-void SdoClient::on_write_segment(const CanFrame& frame) noexcept {
-  if (specifier(frame) != kWriteSegmentAnswer) return abort_here(kAbortUnknownCommand);
-  if (has(frame, kToggleBit) != toggle_) return abort_here(kAbortToggle);
-  toggle_ = !toggle_;
-  if (sent_ == size_) return finish(SdoStatus::kDone);
-  send_segment();
-}
-
-bool SdoClient::answers_address(const CanFrame& frame) const noexcept {
-  return wire::little_endian<std::uint16_t>(wire::Bytes(frame.bytes).subspan(1)) == address_.index &&
-         frame.bytes[3] == address_.sub;
 }
 
 bool SdoClient::append(wire::Bytes bytes) noexcept {
@@ -202,7 +163,7 @@ void SdoClient::send(const std::array<std::uint8_t, 8>& bytes) noexcept {
   frame.id = kRequestBase + node_;
   frame.size = 8;
   frame.bytes = bytes;
-  if (bus_.send(frame) != SendResult::kQueued) finish(SdoStatus::kNotSent);
+  if (!bus_.send(frame)) finish(SdoStatus::kNotSent);
 }
 
 void SdoClient::abort_here(std::uint32_t code) noexcept {

@@ -2,6 +2,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string_view>
 
 #include "drivers/can/can_bus.h"
@@ -19,7 +20,7 @@ enum class SdoStatus : std::uint8_t {
   kNotSent          ///< the bus did not take a frame
 };
 
-/// Reads and writes objects of one node, one at a time, expedited or in segments (CiA 301, SDO protocol).
+/// Reads and writes objects of one node, one at a time (CiA 301, SDO protocol): a drive may answer a read in segments.
 ///
 /// Never waits: `read` or `write` starts a transfer, every frame of the bus goes through `on_frame`, and `poll` ends
 /// a transfer that got no answer for `timeout`. A value longer than kMaxBytes is aborted as "out of memory".
@@ -32,8 +33,7 @@ class SdoClient {
 
   /// False, and nothing changed, while a transfer is under way.
   [[nodiscard]] bool read(ObjectAddress address, Time now) noexcept;
-  /// False also for an empty value and for one longer than kMaxBytes.
-  [[nodiscard]] bool write(ObjectAddress address, wire::Bytes value, Time now) noexcept;
+  [[nodiscard]] bool write(const ObjectWrite& object, Time now) noexcept;
 
   /// Any frame of the bus; those that are not this node's answers are passed over.
   void on_frame(const CanFrame& frame, Time now) noexcept;
@@ -45,22 +45,18 @@ class SdoClient {
   [[nodiscard]] wire::Bytes value() const noexcept { return {buffer_.data(), size_}; }
 
  private:
-  enum class Phase : std::uint8_t { kNone, kReadStart, kReadSegments, kWriteStart, kWriteSegments };
+  enum class Phase : std::uint8_t { kNone, kReadStart, kReadSegments, kWrite };
 
   void start(Phase phase, ObjectAddress address, Time now) noexcept;
   void send(const std::array<std::uint8_t, 8>& bytes) noexcept;
   void send_addressed(std::uint8_t command, std::uint32_t word) noexcept;
   void finish(SdoStatus status, std::uint32_t code = 0) noexcept;
   void abort_here(std::uint32_t code) noexcept;
-  [[nodiscard]] bool answers_address(const CanFrame& frame) const noexcept;
   [[nodiscard]] bool append(wire::Bytes bytes) noexcept;
 
   void on_read_start(const CanFrame& frame) noexcept;
   void on_read_segment(const CanFrame& frame) noexcept;
-  void on_write_start(const CanFrame& frame) noexcept;
-  void on_write_segment(const CanFrame& frame) noexcept;
   void ask_segment() noexcept;
-  void send_segment() noexcept;
 
   CanBus& bus_;
   std::uint8_t node_;
@@ -71,11 +67,9 @@ class SdoClient {
   Time heard_ = kNever;  ///< last progress
   std::uint32_t abort_code_ = 0;
   bool toggle_ = false;
-  bool has_announced_size_ = false;
-  std::size_t announced_size_ = 0;
+  std::optional<std::size_t> announced_size_;
   std::array<std::uint8_t, kMaxBytes> buffer_{};
   std::size_t size_ = 0;  ///< of the value
-  std::size_t sent_ = 0;  ///< of a value being written
 };
 
 /// Why a transfer of an object was given up (CiA 301, SDO abort codes): those that this client sends itself.

@@ -1,21 +1,13 @@
-#include <algorithm>
-#include <cassert>
-
 #include "drivers/canopen/drive_base.h"
 #include "drivers/canopen/drive_proof.h"
+#include "drivers/wire/byte_reader.h"
 
 namespace jaywalk::canopen {
 namespace {
 
-std::int32_t to_counts(double speed_radps, double per_rad) noexcept {
-  constexpr double kMost = 2147483647.0;
-  const double counts = std::clamp(speed_radps * per_rad, -kMost, kMost);
-  return static_cast<std::int32_t>(counts < 0.0 ? counts - 0.5 : counts + 0.5);
-}
-
 constexpr std::uint32_t kNmt = 0x000, kSync = 0x080, kLss = 0x7E5, kHeartbeat = 0x700, kSdoRequest = 0x600,
                         kSdoAnswer = 0x580;
-constexpr std::array<std::uint32_t, 4> kReceivePdos{0x200, 0x300, 0x400, 0x500};
+constexpr Duration kShowing = std::chrono::milliseconds(500);  ///< from enabling until a drive shows its mode (6061h)
 
 std::string kind_of(std::uint32_t id) {
   if (id == kNmt) return "NMT command";
@@ -32,18 +24,10 @@ std::string kind_of(std::uint32_t id) {
 
 }  // namespace
 
-WheelAxis::WheelAxis(const CanAxis& setup, Duration heartbeat) noexcept
-    : setup_(setup),
-      heartbeat_(heartbeat),
-      command_mapping_(command_pdo(setup.node).mapping),
-      status_mapping_(status_pdo(setup.node).mapping),
-      position_mapping_(position_pdo(setup.node).mapping) {}
-
 void WheelAxis::take(const ReceivedFrame& received) noexcept {
   const CanFrame& frame = received.frame;
   if (frame.extended) return;
-  const auto heartbeat = decode_heartbeat(frame);
-  if (heartbeat && heartbeat->node == setup_.node) take_heartbeat(heartbeat->state, received.stamp);
+  if (const auto network = heartbeat_in(frame, setup_.node)) take_heartbeat(*network, received.stamp);
   if (frame.id == 0x180U + setup_.node) take_status(received);
   if (frame.id == 0x280U + setup_.node) take_position(received);
 }
@@ -61,12 +45,14 @@ void WheelAxis::take_heartbeat(NmtState state, Time stamp) noexcept {
 
 void WheelAxis::take_status(const ReceivedFrame& received) noexcept {
   has_twin_ = !statuses_.take() || has_twin_;
-  const auto values = unpack(status_mapping_, received.frame);
-  if (!values) return;
-  state_ = state_of(static_cast<std::uint16_t>((*values)[0]));
-  const auto counts = static_cast<double>(static_cast<std::int32_t>((*values)[1]));
+  wire::ByteReader reader(received.frame.payload());
+  const auto statusword = reader.little<std::uint16_t>();
+  const auto counts = static_cast<std::int32_t>(reader.little<std::uint32_t>());
+  const auto mode = reader.little<std::uint8_t>();
+  if (received.frame.remote || !reader.ok()) return;
+  state_ = state_of(statusword);
   feedback_ = {counts / setup_.per_rad, received.stamp};
-  mode_ = static_cast<std::uint8_t>((*values)[2]);
+  mode_ = mode;
   fresh_status_ = true;
   unanswered_since_ = kNever;
 }
@@ -74,10 +60,10 @@ void WheelAxis::take_status(const ReceivedFrame& received) noexcept {
 // The position wraps at 32 bits: the difference, as a signed number, is right across the wrap.
 void WheelAxis::take_position(const ReceivedFrame& received) noexcept {
   has_twin_ = !positions_.take() || has_twin_;
-  const auto values = unpack(position_mapping_, received.frame);
-  if (!values) return;
-  const std::uint32_t raw = (*values)[0];
-  const std::int32_t counted = has_position_ ? static_cast<std::int32_t>(raw - raw_position_) : 0;
+  wire::ByteReader reader(received.frame.payload());
+  const auto raw = reader.little<std::uint32_t>();
+  if (received.frame.remote || !reader.ok()) return;
+  const auto counted = static_cast<std::int32_t>(raw - raw_position_.value_or(raw));
   if (jumps(counted / setup_.per_rad, feedback_.speed_radps, to_seconds(age(placed_, received.stamp)))) {
     restarted_ = true;
     left_network_ = DriveTrouble::kDriveRestarted;
@@ -86,7 +72,6 @@ void WheelAxis::take_position(const ReceivedFrame& received) noexcept {
   }
   raw_position_ = raw;
   placed_ = received.stamp;
-  has_position_ = true;
   fresh_position_ = true;
 }
 
@@ -94,13 +79,13 @@ double WheelAxis::turned_rad() const noexcept { return static_cast<double>(count
 
 // A drive that restarted, or may have, counts from where it likes: its position goes on from the next that comes.
 bool WheelAxis::begin(Time heard, Time settled, bool heard_all) noexcept {
-  const bool counts_on = has_position_ && heard_all && !restarted_;
+  const bool counts_on = raw_position_ && heard_all && !restarted_;
   heard_ = heard;
   settled_ = settled;
   unanswered_since_ = kNever;
   state_ = DriveState::kUnknown;
   feedback_ = {};
-  has_position_ = counts_on;
+  if (!counts_on) raw_position_.reset();
   fresh_status_ = fresh_position_ = was_enabled_ = restarted_ = false;
   resets_fault_ = true;
   left_network_ = DriveTrouble::kNone;
@@ -114,19 +99,19 @@ void WheelAxis::note_sync(Time now) noexcept {
   statuses_.expect(1.0), positions_.expect(1.0);
 }
 
-DriveTrouble WheelAxis::trouble(Time now, const AxisLimits& limits) noexcept {
+DriveTrouble WheelAxis::trouble(Time now, Duration silence, Duration unanswered) noexcept {
   if (left_network_ != DriveTrouble::kNone) return left_network_;
-  if (age(heard_, now) > limits.silence) return DriveTrouble::kDriveSilent;
-  if (unanswered_since_ != kNever && now - unanswered_since_ > limits.unanswered) return DriveTrouble::kDriveSilent;
+  if (age(heard_, now) > silence) return DriveTrouble::kDriveSilent;
+  if (unanswered_since_ != kNever && now - unanswered_since_ > unanswered) return DriveTrouble::kDriveSilent;
   const bool in_fault = state_ == DriveState::kFault || state_ == DriveState::kFaultReactionActive;
   if (in_fault && now > settled_) return DriveTrouble::kDriveFault;
   const bool was_enabled = was_enabled_ && goal_ == DriveGoal::kEnabled;  // it may leave operation where it is asked to
   was_enabled_ = is_enabled();
   if (!is_enabled()) return was_enabled ? DriveTrouble::kLeftOperation : DriveTrouble::kNone;
-  return mode_trouble(now, limits.showing, was_enabled);
+  return mode_trouble(now, was_enabled);
 }
 
-DriveTrouble WheelAxis::mode_trouble(Time now, Duration showing, bool was_enabled) noexcept {
+DriveTrouble WheelAxis::mode_trouble(Time now, bool was_enabled) noexcept {
   if (!was_enabled) {
     enabled_ = now;
     showed_mode_ = false;
@@ -136,39 +121,29 @@ DriveTrouble WheelAxis::mode_trouble(Time now, Duration showing, bool was_enable
     return DriveTrouble::kNone;
   }
   if (showed_mode_) return DriveTrouble::kDriveRestarted;
-  return now - enabled_ > showing ? DriveTrouble::kNotProved : DriveTrouble::kNone;
+  return now - enabled_ > kShowing ? DriveTrouble::kNotProved : DriveTrouble::kNone;
 }
 
 CanFrame WheelAxis::target(DriveGoal goal, double wanted_radps) noexcept {
   const std::uint16_t controlword = controlword_towards(goal, state_, resets_fault_);
   if (state_ != DriveState::kUnknown) resets_fault_ = false;
   goal_ = goal;
-  const std::int32_t target = to_counts(wanted_radps, setup_.per_rad);
-  const std::array<std::uint32_t, 2> values{controlword, static_cast<std::uint32_t>(target)};
-  return pack(command_mapping_, 0x200U + setup_.node, values).value_or(CanFrame{});
+  return command_frame(setup_.node, controlword, rounded_within(wanted_radps * setup_.per_rad, 2147483647.0));
 }
 
 CanFrame WheelAxis::quick_stop_request() const noexcept {
   CanFrame frame;
-  frame.id = 0x600U + setup_.node;
+  frame.id = kSdoRequest + setup_.node;
   frame.size = 8;
-  // An expedited write of two bytes to 6040h.
-  frame.bytes = {0x2B, 0x40, 0x60, 0x00};
-  frame.bytes[4] =
-      static_cast<std::uint8_t>(controlword_towards(DriveGoal::kQuickStop, DriveState::kOperationEnabled, false));
+  frame.bytes = {0x2B, 0x40, 0x60, 0x00, 0x02};  // an expedited write of two bytes, 0002h, to 6040h
   return frame;
 }
 
 Identifiers masters_identifiers(std::uint8_t controller_node, const std::array<std::uint8_t, 2>& drives) noexcept {
-  Identifiers ids;
-  bool fit =
-      ids.push_back(kNmt) && ids.push_back(kSync) && ids.push_back(kLss) && ids.push_back(kHeartbeat + controller_node);
-  for (const std::uint8_t node : drives) {
-    for (const std::uint32_t base : kReceivePdos) fit = fit && ids.push_back(base + node);
-    fit = fit && ids.push_back(kSdoRequest + node);
-  }
-  assert(fit);
-  static_cast<void>(fit);
+  Identifiers ids{kNmt, kSync, kLss, kHeartbeat + controller_node};
+  auto* next = ids.begin() + 4;
+  for (const std::uint8_t node : drives)
+    for (const std::uint32_t base : {0x200U, 0x300U, 0x400U, 0x500U, kSdoRequest}) *next++ = base + node;
   return ids;
 }
 

@@ -3,54 +3,36 @@
 namespace jaywalk::ldrobot {
 namespace {
 
-constexpr std::uint8_t kHeader = 0x54, kTwelvePoints = 0x2C, kPolynomial = 0x4D;
+constexpr std::uint8_t kHeader = 0x54, kTwelvePoints = 0x2C;
 constexpr std::uint16_t kTurnCdeg = 36000;
-
-/// The checksum of each single byte.
-constexpr std::array<std::uint8_t, 256> kRemainders = [] {
-  std::array<std::uint8_t, 256> made{};
-  for (unsigned byte = 0; byte < made.size(); ++byte) {
-    unsigned crc = byte;
-    for (int bit = 0; bit < 8; ++bit) crc = ((crc << 1U) ^ ((crc & 0x80U) != 0 ? kPolynomial : 0U)) & 0xFFU;
-    made[byte] = static_cast<std::uint8_t>(crc);
-  }
-  return made;
-}();
 
 }  // namespace
 
-std::uint8_t crc8(wire::Bytes bytes) noexcept {
-  std::uint8_t crc = 0;
-  for (const std::uint8_t byte : bytes) crc = kRemainders[crc ^ byte];
-  return crc;
-}
+std::uint8_t crc8(wire::Bytes bytes) noexcept { return wire::crc_of<std::uint8_t>(bytes, 0x4D); }
 
-Decoding decode_packet(wire::Bytes bytes, Packet& packet) noexcept {
-  if (bytes.size() != kPacketBytes) return Decoding::kTruncated;
-  if (bytes[0] != kHeader || bytes[1] != kTwelvePoints) return Decoding::kOtherMessage;
-  if (crc8(bytes.first(kPacketBytes - 1)) != bytes.back()) return Decoding::kChecksum;
+std::optional<Packet> decode_packet(wire::Bytes bytes) noexcept {
+  if (bytes.size() != kPacketBytes || bytes[0] != kHeader || bytes[1] != kTwelvePoints) return std::nullopt;
+  if (crc8(bytes.first(kPacketBytes - 1)) != bytes.back()) return std::nullopt;
+  Packet packet;
   wire::ByteReader reader(bytes.subspan(2));
   packet.speed_degps = reader.little<std::uint16_t>();
   packet.first_angle_cdeg = reader.little<std::uint16_t>();
-  for (Point& point : packet.points) {
-    point.range_mm = reader.little<std::uint16_t>();
-    point.intensity = reader.little<std::uint8_t>();
+  for (std::uint16_t& range_mm : packet.range_mm) {
+    range_mm = reader.little<std::uint16_t>();
+    reader.little<std::uint8_t>();  // intensity
   }
   packet.last_angle_cdeg = reader.little<std::uint16_t>();
   packet.time_ms = reader.little<std::uint16_t>();
   const bool in_turn = packet.first_angle_cdeg < kTurnCdeg && packet.last_angle_cdeg < kTurnCdeg;
-  return in_turn ? Decoding::kScan : Decoding::kBadField;
+  return in_turn ? std::optional(packet) : std::nullopt;
 }
 
 std::optional<Packet> PacketStream::next() noexcept {
   for (;;) {
-    const wire::Bytes waiting = queue_.waiting();
-    if (waiting.size() < kPacketBytes) return std::nullopt;
-    Packet packet;
-    const bool found = decode_packet(waiting.first(kPacketBytes), packet) == Decoding::kScan;
-    queue_.drop(found ? kPacketBytes : 1);
-    if (found) return packet;
-    ++skipped_;
+    if (waiting().size() < kPacketBytes) return std::nullopt;
+    const auto packet = decode_packet(waiting().first(kPacketBytes));
+    packet ? drop(kPacketBytes) : skip(1);
+    if (packet) return packet;
   }
 }
 
@@ -65,14 +47,14 @@ bool SweepBuilder::add(const Packet& packet, Time arrival, LaserScan& scan) noex
     const double turned_deg = between_deg * static_cast<double>(k);
     const double angle_deg = first_deg + turned_deg >= 360.0 ? first_deg + turned_deg - 360.0 : first_deg + turned_deg;
     const Time measured = arrival - duration_from_seconds((swept_deg - turned_deg) / packet.speed_degps);
-    const float range_m = static_cast<float>(packet.points[k].range_mm) * 0.001F;
+    const float range_m = static_cast<float>(packet.range_mm[k]) * 0.001F;
     completed = turn_.add(angle_deg, range_m, measured, scan) || completed;
   }
   return completed;
 }
 
 void LdProtocol::begin() noexcept {
-  stream_.forget();
+  stream_.clear();
   sweep_ = SweepBuilder();
   device_clock_.forget();
 }

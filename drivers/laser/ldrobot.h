@@ -12,39 +12,24 @@ namespace jaywalk::ldrobot {
 
 inline constexpr std::size_t kPacketBytes = 47, kPacketPoints = 12;
 
-struct Point {
-  std::uint16_t range_mm = 0;  ///< 0: nothing measured, for whatever cause
-  std::uint8_t intensity = 0;
-};
-
 struct Packet {
   std::uint16_t speed_degps = 0;
   std::uint16_t first_angle_cdeg = 0;  ///< hundredths of a degree, clockwise from ahead, below 36000
   std::uint16_t last_angle_cdeg = 0;
-  std::uint16_t time_ms = 0;  ///< the scanner's clock; wraps at 30000
-  std::array<Point, kPacketPoints> points{};
+  std::uint16_t time_ms = 0;                            ///< the scanner's clock; wraps at 30000
+  std::array<std::uint16_t, kPacketPoints> range_mm{};  ///< 0: nothing measured, for whatever cause
 };
 
 /// CRC-8 with polynomial 4Dh, from 0, highest bit first.
 [[nodiscard]] std::uint8_t crc8(wire::Bytes bytes) noexcept;
 
-/// `bytes` is one packet: kPacketBytes that begin with 54h 2Ch.
-[[nodiscard]] Decoding decode_packet(wire::Bytes bytes, Packet& packet) noexcept;
+/// Nothing unless `bytes` is one packet: kPacketBytes that begin with 54h 2Ch, with its checksum and sane angles.
+[[nodiscard]] std::optional<Packet> decode_packet(wire::Bytes bytes) noexcept;
 
 /// Finds packets in a stream; after garbage it goes on at the next one whose checksum holds.
-class PacketStream {
- public:
-  void append(wire::Bytes bytes) noexcept { queue_.append(bytes); }
-  /// Drops what waits, uncounted: another connection begins.
-  void forget() noexcept { queue_.clear(); }
+struct PacketStream : wire::ByteQueue<4096> {
   /// Nothing until more bytes came.
   [[nodiscard]] std::optional<Packet> next() noexcept;
-  /// Bytes that belonged to no packet.
-  [[nodiscard]] std::uint64_t skipped() const noexcept { return skipped_ + queue_.lost(); }
-
- private:
-  wire::ByteQueue<4096> queue_;
-  std::uint64_t skipped_ = 0;
 };
 
 /// Makes scans of packets.
@@ -64,8 +49,6 @@ class SweepBuilder {
 class LdProtocol final : public ScannerProtocol {
  public:
   void begin() noexcept override;
-  [[nodiscard]] wire::Bytes to_say(Time) noexcept override { return {}; }
-  [[nodiscard]] bool awaits_answer() const noexcept override { return false; }
   void hear(wire::Bytes bytes) noexcept override { stream_.append(bytes); }
   [[nodiscard]] Heard next(Time arrival, LaserScan& scan) noexcept override;
   /// Packets are not numbered: what is lost of them shows as skipped bytes, and as unknown beams.

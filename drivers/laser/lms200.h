@@ -1,14 +1,11 @@
 #pragma once
 // SICK LMS200 on a serial line: STX, address, length, body, CRC-16; numbers least significant byte first.
-#include <array>
 #include <cstddef>
 #include <cstdint>
-#include <initializer_list>
 #include <optional>
 
 #include "drivers/laser/scanner_protocol.h"
 #include "drivers/wire/byte_reader.h"
-#include "hal/types/fixed_vector.h"
 #include "hal/types/laser_scan.h"
 
 namespace jaywalk::lms200 {
@@ -16,27 +13,11 @@ namespace jaywalk::lms200 {
 /// The maker's own CRC: each byte goes in together with the one before it; generator 8005h.
 [[nodiscard]] std::uint16_t crc16(wire::Bytes bytes) noexcept;
 
-using Command = FixedVector<std::uint8_t, 16>;
-/// A command for scanner 0 with its framing; `body` has at most 8 bytes.
-[[nodiscard]] Command framed(std::initializer_list<std::uint8_t> body) noexcept;
-
 /// Cuts a stream into the bodies of telegrams from scanner 0; after garbage it goes on at the next whose checksum
-/// holds.
-class TelegramStream {
- public:
-  static constexpr std::size_t kMostBody = 812;  ///< the longest that the maker's list of telegrams has
-
-  void append(wire::Bytes bytes) noexcept { queue_.append(bytes); }
-  void forget() noexcept;
-  /// Command, fields and the scanner's status byte; valid until the next call.
+/// holds. An ACK is not counted as skipped.
+struct TelegramStream : wire::ByteQueue<4096> {
+  /// Command, fields and the scanner's status byte; valid until the next append.
   [[nodiscard]] std::optional<wire::Bytes> next() noexcept;
-  /// Bytes that belonged to no telegram, other than ACK.
-  [[nodiscard]] std::uint64_t skipped() const noexcept { return skipped_ + queue_.lost(); }
-
- private:
-  wire::ByteQueue<4096> queue_;
-  std::size_t handed_out_ = 0;
-  std::uint64_t skipped_ = 0;
 };
 
 /// Decodes a telegram B0h, all measured values, into `scan`, all but its sequence.
@@ -46,10 +27,7 @@ class TelegramStream {
 /// three highest bits of a value are flags: field A, field B, dazzled (the measuring mode of the factory). The rest is
 /// a distance up to 8182 counts of a centimetre or a millimetre, 8183 for one beyond that, or an error code above. A
 /// dazzled value and an error code prove nothing.
-[[nodiscard]] Decoding decode_scan(wire::Bytes body, std::uint32_t baud, Time arrival, LaserScan& scan) noexcept;
-
-/// The scanner warns in the status byte at the end of a body: of dirt on its window, or of something else.
-[[nodiscard]] bool warns(wire::Bytes body) noexcept;
+[[nodiscard]] Heard decode_scan(wire::Bytes body, std::uint32_t baud, Time arrival, LaserScan& scan) noexcept;
 
 /// Makes an LMS200 send all its scans: quiet, then all values without end. Field of view, resolution, unit and line
 /// rate are left as they were set in the scanner (9600 baud from the factory). It has no clock.
@@ -60,16 +38,13 @@ class Lms200Protocol final : public ScannerProtocol {
 
   void begin() noexcept override;
   [[nodiscard]] wire::Bytes to_say(Time now) noexcept override;
-  [[nodiscard]] bool awaits_answer() const noexcept override { return asked_; }
   void hear(wire::Bytes bytes) noexcept override { stream_.append(bytes); }
   [[nodiscard]] Heard next(Time arrival, LaserScan& scan) noexcept override;
   [[nodiscard]] ProtocolCounts counts() const noexcept override { return {0, stream_.skipped(), 0, warned_}; }
 
  private:
   std::uint32_t baud_;
-  std::array<Command, 2> steps_{framed({0x20, 0x25}), framed({0x20, 0x24})};
-  std::size_t at_ = 0;
-  bool asked_ = false;
+  std::size_t at_ = 0;  ///< the command that is said next, or whose answer is awaited
   TelegramStream stream_;
   std::uint64_t warned_ = 0;
 };

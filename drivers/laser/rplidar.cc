@@ -1,7 +1,19 @@
 #include "drivers/laser/rplidar.h"
 
+#include <algorithm>
+#include <array>
+
 namespace jaywalk::rplidar {
 namespace {
+
+constexpr std::array<std::uint8_t, 2> kStopRequest{0xA5, 0x25}, kScanRequest{0xA5, 0x20};
+/// The motor on at 660 of 1023, as the maker's own software has it, and the question how the scanner is.
+constexpr std::array<std::uint8_t, 8> kMotorOnAndHealth{0xA5, 0xF0, 0x02, 0x94, 0x02, 0xC1, 0xA5, 0x52};
+
+constexpr std::size_t kNodeBytes = 5, kHealthBytes = 3;
+// Descriptors, which introduce an answer: bytes of each part, 40h where part follows part until it is stopped, type.
+constexpr std::array<std::uint8_t, 7> kHealthComes{0xA5, 0x5A, kHealthBytes, 0, 0, 0, 0x06};
+constexpr std::array<std::uint8_t, 7> kNodesCome{0xA5, 0x5A, kNodeBytes, 0, 0, 0x40, 0x81};
 
 /// A turn's last points may lie beyond its end, by less than the widest step between two at the fewest points a turn.
 constexpr double kMostAngle_deg = 370.0;
@@ -12,15 +24,6 @@ constexpr Duration kPause = std::chrono::milliseconds(20);
 constexpr std::size_t kInARow = 5;
 
 }  // namespace
-
-std::optional<Descriptor> decode_descriptor(wire::Bytes bytes) noexcept {
-  wire::ByteReader reader(bytes);
-  const bool begins = reader.little<std::uint8_t>() == 0xA5 && reader.little<std::uint8_t>() == 0x5A;
-  const auto length_and_mode = reader.little<std::uint32_t>();  // the two highest bits are the mode
-  const auto type = reader.little<std::uint8_t>();
-  if (!reader.ok() || !begins) return std::nullopt;
-  return Descriptor{length_and_mode & 0x3FFFFFFFU, length_and_mode >> 30U == 1, type};
-}
 
 std::optional<Node> decode_node(wire::Bytes bytes) noexcept {
   wire::ByteReader reader(bytes);
@@ -33,7 +36,7 @@ std::optional<Node> decode_node(wire::Bytes bytes) noexcept {
   double angle_deg = (angle >> 1U) / 64.0;
   if (angle_deg >= kMostAngle_deg) return std::nullopt;
   if (angle_deg >= 360.0) angle_deg -= 360.0;
-  return Node{begins, static_cast<std::uint8_t>(first >> 2U), angle_deg, static_cast<float>(range) * 0.00025F};
+  return Node{angle_deg, static_cast<float>(range) * 0.00025F};
 }
 
 void RplidarProtocol::begin() noexcept {
@@ -74,12 +77,13 @@ Heard RplidarProtocol::next(Time arrival, LaserScan& scan) noexcept {
 }
 
 /// Drops what stands before the descriptor, and it too; false until it came.
-bool RplidarProtocol::find(const Descriptor& wanted) noexcept {
-  while (queue_.waiting().size() >= kDescriptorBytes) {
-    const bool found = decode_descriptor(queue_.waiting()) == wanted;
-    queue_.drop(found ? kDescriptorBytes : 1);
-    if (found) return true;
-    ++skipped_;
+bool RplidarProtocol::find(wire::Bytes descriptor) noexcept {
+  while (queue_.waiting().size() >= descriptor.size()) {
+    if (std::ranges::equal(queue_.waiting().first(descriptor.size()), descriptor)) {
+      queue_.drop(descriptor.size());
+      return true;
+    }
+    queue_.skip(1);
   }
   return false;
 }
@@ -108,8 +112,7 @@ Heard RplidarProtocol::on_nodes(Time arrival, LaserScan& scan) noexcept {
     if (!node || (lost_step_ && !in_step())) {
       if (!lost_step_) turn_.forget();  // a turn with a hole does not count
       lost_step_ = true;
-      queue_.drop(1);
-      ++skipped_;
+      queue_.skip(1);
       continue;
     }
     lost_step_ = false;

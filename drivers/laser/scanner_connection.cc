@@ -4,7 +4,6 @@
 #include <sched.h>
 
 #include <algorithm>
-#include <array>
 
 #include "drivers/laser/ldrobot.h"
 #include "drivers/laser/lms200.h"
@@ -23,6 +22,13 @@ constexpr Duration kLongestWait = std::chrono::milliseconds(20);
 /// 64 kB a step: a scanner sends less than that in 20 ms, and a flood does not keep the limits from being looked at.
 constexpr int kMostReads = 16;
 
+constexpr Duration kConnectLimit = std::chrono::seconds(2), kScannerAnswer = std::chrono::seconds(1);
+/// Without a scan for so long, the connection is given up.
+constexpr Duration kScanSilence = std::chrono::seconds(1);
+/// A scan is late when its stamp is this much older than its sweep.
+constexpr Duration kScanLate = std::chrono::milliseconds(500);
+
+// In the order of ScannerKind.
 constexpr std::array<ScannerMake, 7> kKinds{{{"sick-cola-a", ScannerKind::kSickColaA, 2112, 0},
                                              {"sick-cola-b", ScannerKind::kSickColaB, 2112, 0},
                                              {"hokuyo", ScannerKind::kHokuyo, 10940, 115200},
@@ -70,31 +76,18 @@ std::string_view name(ScannerTrouble trouble) noexcept {
   return index < kNames.size() ? kNames[index] : "unknown trouble";
 }
 
-ScannerConnection::ScannerConnection(std::unique_ptr<wire::Link> link, std::unique_ptr<ScannerProtocol> protocol,
-                                     Clock& clock, const ConnectionTiming& timing)
-    : link_(std::move(link)),
-      protocol_(std::move(protocol)),
-      clock_(clock),
-      timing_(timing),
-      rest_(timing.first_rest) {}
-
 ScannerConnection::~ScannerConnection() {
   stopping_ = true;
   if (thread_.joinable()) thread_.join();
 }
 
 bool ScannerConnection::start(int priority) {
-  thread_ = thread_without_signals("laser", [this] { run(); });
+  thread_ = thread_without_signals("laser", [this] {
+    for (; !stopping_; link_->wait(kLongestWait)) step();
+  });
   const sched_param wanted{.sched_priority = priority};
   const int policy = priority > 0 ? SCHED_FIFO : SCHED_OTHER;
   return ::pthread_setschedparam(thread_.native_handle(), policy, &wanted) == 0;
-}
-
-void ScannerConnection::run() noexcept {
-  while (!stopping_) {
-    step();
-    link_->wait(kLongestWait);
-  }
 }
 
 void ScannerConnection::step() noexcept {
@@ -110,19 +103,16 @@ void ScannerConnection::step() noexcept {
 }
 
 void ScannerConnection::await_opening(Time now) noexcept {
-  switch (link_->state()) {
-    case wire::Link::State::kClosed: return give_up(ScannerTrouble::kUnreachable, now);
-    case wire::Link::State::kOpening:
-      if (age(opened_, now) > timing_.connect_limit) give_up(ScannerTrouble::kUnreachable, now);
-      return;
-    case wire::Link::State::kOpen:
-      protocol_->begin();
-      progress_ = now;
-      scan_late_ = false;
-      ++health_.connections;
-      phase_ = Phase::kTalking;
-      return;
-  }
+  const wire::Link::State state = link_->state();
+  const bool opens = state == wire::Link::State::kOpening;
+  if (state == wire::Link::State::kClosed || (opens && age(opened_, now) > kConnectLimit))
+    return give_up(ScannerTrouble::kUnreachable, now);
+  if (opens) return;
+  protocol_->begin();
+  progress_ = now;
+  scan_late_ = false;
+  ++health_.connections;
+  phase_ = Phase::kTalking;
 }
 
 void ScannerConnection::talk(Time now) noexcept {
@@ -157,7 +147,7 @@ void ScannerConnection::take_messages(Time arrival) noexcept {
 
 void ScannerConnection::take_scan(Time arrival) noexcept {
   LaserScan& scan = scans_.draft();
-  scan_late_ = age(scan.stamp, arrival) > scan.sweep + timing_.late_limit;
+  scan_late_ = age(scan.stamp, arrival) > scan.sweep + kScanLate;
   const bool newer = scan.stamp > last_stamp_;  // two that came at once on a new connection may look simultaneous
   if (scan_late_ || !newer) ++health_.late;
   if (newer) {
@@ -168,18 +158,18 @@ void ScannerConnection::take_scan(Time arrival) noexcept {
   }
   if (scan_late_) return;
   progress_ = arrival;
-  rest_ = timing_.first_rest;
+  rest_ = kFirstRest;
   health_.trouble = ScannerTrouble::kNone;
 }
 
 void ScannerConnection::watch(Time now) noexcept {
   const Duration without = age(progress_, now);
-  if (protocol_->awaits_answer() && without > timing_.answer_limit) {
+  if (protocol_->awaits_answer() && without > kScannerAnswer) {
     if (!protocol_->go_on_unanswered()) return give_up(ScannerTrouble::kNoAnswer, now);
     progress_ = now;
     return;
   }
-  if (without <= timing_.silence_limit) return;
+  if (without <= kScanSilence) return;
   const bool says_why = health_.trouble == ScannerTrouble::kDeviceError || health_.trouble == ScannerTrouble::kDirty;
   give_up(says_why ? health_.trouble : scan_late_ ? ScannerTrouble::kLate : ScannerTrouble::kSilent, now);
 }
@@ -189,7 +179,7 @@ void ScannerConnection::give_up(ScannerTrouble why, Time now) noexcept {
   suffer(why);
   phase_ = Phase::kResting;
   rest_until_ = now + rest_;
-  rest_ = std::min(2 * rest_, timing_.longest_rest);
+  rest_ = std::min(2 * rest_, kLongestRest);
 }
 
 void ScannerConnection::tell_health() noexcept {
@@ -201,13 +191,10 @@ void ScannerConnection::tell_health() noexcept {
 
 std::span<const ScannerMake> scanner_makes() noexcept { return kKinds; }
 
-const ScannerMake& scanner_make(ScannerKind kind) noexcept {
-  return *std::find_if(kKinds.begin(), kKinds.end(), [kind](const ScannerMake& k) { return k.kind == kind; });
-}
+const ScannerMake& scanner_make(ScannerKind kind) noexcept { return kKinds[static_cast<std::size_t>(kind)]; }
 
 std::optional<ScannerKind> scanner_kind(std::string_view name) noexcept {
-  const auto* const found =
-      std::find_if(kKinds.begin(), kKinds.end(), [name](const ScannerMake& k) { return k.name == name; });
+  const auto* const found = std::ranges::find(kKinds, name, &ScannerMake::name);
   return found == kKinds.end() ? std::nullopt : std::optional(found->kind);
 }
 

@@ -43,19 +43,6 @@ struct ScannerHealth {
   bool operator==(const ScannerHealth&) const = default;
 };
 
-struct ConnectionTiming {
-  Duration connect_limit = std::chrono::seconds(2);
-  Duration answer_limit = std::chrono::seconds(1);
-  /// Without a scan for so long, the connection is given up.
-  Duration silence_limit = std::chrono::seconds(1);
-  /// A scan is late when its stamp is this much older than its sweep.
-  Duration late_limit = std::chrono::milliseconds(500);
-  /// From one try to the next; doubles with each that brought no scan. The first is long enough for scans to grow too
-  /// old, one and a half periods of 5 Hz or more: a wire that broke stops the robot however soon it is whole again.
-  Duration first_rest = std::chrono::milliseconds(300);
-  Duration longest_rest = std::chrono::milliseconds(1600);
-};
-
 /// A scanner on a wire as the HAL's laser. It connects, says what makes the scanner send, decodes, and begins anew
 /// where anything goes wrong. While no scans come, `latest` stays at the last one, whose stamp grows old.
 ///
@@ -65,12 +52,8 @@ struct ConnectionTiming {
 class ScannerConnection final : public LaserScanner {
  public:
   /// `clock` outlives it.
-  ScannerConnection(std::unique_ptr<wire::Link> link, std::unique_ptr<ScannerProtocol> protocol, Clock& clock,
-                    const ConnectionTiming& timing = {});
-  /// Over a socket or serial line.
-  ScannerConnection(std::unique_ptr<wire::Endpoint> endpoint, std::unique_ptr<ScannerProtocol> protocol, Clock& clock,
-                    const ConnectionTiming& timing = {})
-      : ScannerConnection(std::make_unique<wire::ByteLink>(std::move(endpoint)), std::move(protocol), clock, timing) {}
+  ScannerConnection(std::unique_ptr<wire::Link> link, std::unique_ptr<ScannerProtocol> protocol, Clock& clock)
+      : link_(std::move(link)), protocol_(std::move(protocol)), clock_(clock) {}
   ~ScannerConnection() override;
 
   /// `priority` of SCHED_FIFO, 1 to 98, for the thread; 0: an ordinary one. False where the kernel does not permit it:
@@ -87,7 +70,10 @@ class ScannerConnection final : public LaserScanner {
  private:
   enum class Phase : std::uint8_t { kResting, kOpening, kTalking };
 
-  void run() noexcept;
+  /// From one try to the next; doubles with each that brought no scan. The first is long enough for scans to grow too
+  /// old, one and a half periods of 5 Hz or more: a wire that broke stops the robot however soon it is whole again.
+  static constexpr Duration kFirstRest = std::chrono::milliseconds(300), kLongestRest = std::chrono::milliseconds(1600);
+
   void await_opening(Time now) noexcept;
   void talk(Time now) noexcept;
   void take_messages(Time arrival) noexcept;
@@ -100,11 +86,10 @@ class ScannerConnection final : public LaserScanner {
   std::unique_ptr<wire::Link> link_;
   std::unique_ptr<ScannerProtocol> protocol_;
   Clock& clock_;
-  ConnectionTiming timing_;
 
   Phase phase_ = Phase::kResting;
   Time rest_until_ = kNever;
-  Duration rest_;
+  Duration rest_ = kFirstRest;
   Time opened_ = kNever;    ///< when opening began
   Time progress_ = kNever;  ///< of the last scan that was not late, or of the last command that was answered
   Time last_stamp_ = kNever;
@@ -132,8 +117,7 @@ struct ScannerMake {
 [[nodiscard]] std::span<const ScannerMake> scanner_makes() noexcept;
 [[nodiscard]] const ScannerMake& scanner_make(ScannerKind kind) noexcept;
 
-/// "sick-cola-a", "sick-cola-b", "hokuyo", "ld19" (and LD06), "lms200", "rplidar", "dds" (a ROS 2 topic, by
-/// jaywalk_dds); nothing for other names.
+/// By ScannerMake::name; nothing for other names.
 [[nodiscard]] std::optional<ScannerKind> scanner_kind(std::string_view name) noexcept;
 
 /// Where a scanner is and what it does not say of itself.

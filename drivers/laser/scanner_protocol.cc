@@ -15,21 +15,6 @@ constexpr double kUsualStep = 1.5;
 
 }  // namespace
 
-std::string_view name(Decoding decoding) noexcept {
-  switch (decoding) {
-    case Decoding::kScan: return "scan";
-    case Decoding::kOtherMessage: return "another message";
-    case Decoding::kTruncated: return "cut off";
-    case Decoding::kChecksum: return "wrong checksum";
-    case Decoding::kBadField: return "bad field";
-    case Decoding::kTooManyBeams: return "too many beams";
-    case Decoding::kNoDistances: return "no distances";
-    case Decoding::kDeviceError: return "scanner reports an error";
-    case Decoding::kDirty: return "scanner's window is dirty";
-  }
-  return "unknown";
-}
-
 bool TurnBuilder::add(double angle_deg, float range_m, Time measured, LaserScan& scan) noexcept {
   bool completed = false;
   if (angle_deg < last_angle_deg_ - kHalfTurnDeg) {

@@ -3,7 +3,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <string_view>
 
 #include "drivers/wire/byte_reader.h"
 #include "hal/types/laser_scan.h"
@@ -11,22 +10,7 @@
 
 namespace jaywalk {
 
-/// What came of bytes that should have been a scan. Except at kScan the scan that was to be filled is not to be used.
-enum class Decoding : std::uint8_t {
-  kScan,
-  kOtherMessage,  ///< well formed, but no scan: an answer to a command
-  kTruncated,     ///< ends before its fields do
-  kChecksum,
-  kBadField,      ///< a field that is no number, or one that no scanner sends
-  kTooManyBeams,  ///< more than kMaxBeams
-  kNoDistances,   ///< a scan without a channel of first distances
-  kDeviceError,   ///< the scanner says that it is not well
-  kDirty          ///< the scanner says that its window is too dirty to measure through
-};
-
-[[nodiscard]] std::string_view name(Decoding decoding) noexcept;
-
-/// What a message from a scanner was.
+/// What a message from a scanner was. Except at kScan the scan that was to be filled is not to be used.
 enum class Heard : std::uint8_t {
   kNothing,      ///< no whole message yet
   kScan,         ///< the scan is filled, all but its sequence
@@ -36,17 +20,6 @@ enum class Heard : std::uint8_t {
   kDirty,        ///< the scanner says that its window is too dirty to measure through
   kRefused       ///< it will not send scans
 };
-
-/// What a message was, as far as its decoding tells.
-[[nodiscard]] constexpr Heard heard_of(Decoding decoding) noexcept {
-  switch (decoding) {
-    case Decoding::kScan: return Heard::kScan;
-    case Decoding::kOtherMessage: return Heard::kAnswer;
-    case Decoding::kDeviceError: return Heard::kDeviceError;
-    case Decoding::kDirty: return Heard::kDirty;
-    default: return Heard::kMalformed;
-  }
-}
 
 /// Since start, over all connections.
 struct ProtocolCounts {
@@ -64,15 +37,18 @@ class ScannerProtocol {
   virtual ~ScannerProtocol() = default;
   /// A connection begins: what was half said and half heard before is forgotten.
   virtual void begin() noexcept = 0;
-  /// The next command, handed out once; empty while an answer is awaited and when all is said. Valid until begin().
-  [[nodiscard]] virtual wire::Bytes to_say(Time now) noexcept = 0;
-  [[nodiscard]] virtual bool awaits_answer() const noexcept = 0;
+  /// The next command, handed out once; empty while an answer is awaited and when all is said. Valid until the next.
+  [[nodiscard]] virtual wire::Bytes to_say(Time /*now*/) noexcept { return {}; }
+  [[nodiscard]] virtual bool awaits_answer() const noexcept { return asked_; }
   /// The answer does not come: false where that is the end, true where the conversation goes on without it.
   [[nodiscard]] virtual bool go_on_unanswered() noexcept { return false; }
   virtual void hear(wire::Bytes bytes) noexcept = 0;
   /// The next message of what was heard, whose last byte came in at `arrival`. `scan` may be spoilt except at kScan.
   [[nodiscard]] virtual Heard next(Time arrival, LaserScan& scan) noexcept = 0;
   [[nodiscard]] virtual ProtocolCounts counts() const noexcept = 0;
+
+ protected:
+  bool asked_ = false;  ///< a command, and its answer did not come yet
 };
 
 /// Makes scans of the single points of a scanner that turns clockwise without end: a turn begins where the angle passes

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <limits>
 #include <span>
+#include <utility>
 
 #include "hal/shown_text.h"
 #include "hal/types/trig.h"
@@ -51,56 +52,36 @@ std::optional<std::string_view> checked(std::string_view line) noexcept {
   return line.substr(0, line.size() - 1);
 }
 
-/// Gathers the characters of numbers that may begin on one line and end on the next.
-class DistanceReader {
- public:
-  /// `one_means_nothing`: as in ScannerModel.
-  DistanceReader(std::size_t characters, bool one_means_nothing, LaserScan& scan) noexcept
-      : characters_(characters), one_means_nothing_(one_means_nothing), scan_(scan) {}
+/// `one_means_nothing`: as in ScannerModel.
+float range_of(std::uint32_t value, bool one_means_nothing) noexcept {
+  if (value == kNothingInRange && one_means_nothing) return std::numeric_limits<float>::infinity();
+  const bool is_code = value <= kLastCode || (value >= kNoEchoFirst && value <= kNoEchoLast);
+  return is_code ? 0.0F : static_cast<float>(value) * 0.001F;
+}
 
-  Decoding read(std::string_view characters) noexcept {
-    for (const char c : characters) {
-      const auto bits = decode_number({&c, 1});
-      if (!bits) return Decoding::kBadField;
-      value_ = value_ << 6U | *bits;
-      if (++gathered_ < characters_) continue;
-      if (scan_.beam_count == kMaxBeams) return Decoding::kTooManyBeams;
-      scan_.range_m[scan_.beam_count++] = range_of(value_);
-      value_ = 0;
-      gathered_ = 0;
-    }
-    return Decoding::kScan;
-  }
-  [[nodiscard]] bool is_between_numbers() const noexcept { return gathered_ == 0; }
-
- private:
-  [[nodiscard]] float range_of(std::uint32_t value) const noexcept {
-    if (value == kNothingInRange && one_means_nothing_) return std::numeric_limits<float>::infinity();
-    const bool is_code = value <= kLastCode || (value >= kNoEchoFirst && value <= kNoEchoLast);
-    return is_code ? 0.0F : static_cast<float>(value) * 0.001F;
-  }
-
-  std::size_t characters_;
-  bool one_means_nothing_;
-  LaserScan& scan_;
-  std::uint32_t value_ = 0;
-  std::size_t gathered_ = 0;
-};
-
-// Of joined steps one that is in error may hide what the others saw: there a code is only a code.
-Decoding read_distances(std::string_view rest, const Question& question, const ScannerModel& model,
-                        LaserScan& scan) noexcept {
+// Numbers may begin on one line and end on the next. Of joined steps one that is in error may hide what the others saw:
+// there a code is only a code.
+bool read_distances(std::string_view rest, const Question& question, const ScannerModel& model,
+                    LaserScan& scan) noexcept {
+  const bool one_means_nothing = model.one_means_nothing && question.cluster == 1;
+  std::uint32_t value = 0;
+  std::size_t gathered = 0;  // characters of the value
   scan.beam_count = 0;
-  DistanceReader reader(question.characters, model.one_means_nothing && question.cluster == 1, scan);
   while (!rest.empty()) {
     const auto line = checked(take_line(rest));
-    if (!line) return Decoding::kChecksum;
-    if (line->size() > kLongestData) return Decoding::kBadField;
-    const Decoding decoding = reader.read(*line);
-    if (decoding != Decoding::kScan) return decoding;
+    if (!line || line->size() > kLongestData) return false;
+    for (const char c : *line) {
+      const auto bits = decode_number({&c, 1});
+      if (!bits) return false;
+      value = value << 6U | *bits;
+      if (++gathered < question.characters) continue;
+      if (scan.beam_count == kMaxBeams) return false;
+      scan.range_m[scan.beam_count++] = range_of(std::exchange(value, 0), one_means_nothing);
+      gathered = 0;
+    }
   }
   const std::uint32_t expected = (question.last_step - question.first_step) / question.cluster + 1;
-  return reader.is_between_numbers() && scan.beam_count == expected ? Decoding::kScan : Decoding::kTruncated;
+  return gathered == 0 && scan.beam_count == expected;
 }
 
 /// What PP tells, in its own names and units.
@@ -113,19 +94,19 @@ struct Told {
 /// "MODL:UTM-30LX(Hokuyo Automatic Co.,Ltd.)"; not the UTM-30LX-EW, whose codes are others.
 bool names_utm_30lx(std::string_view text) noexcept { return text.substr(0, text.find('(')) == "MODL:UTM-30LX"; }
 
-/// "DMIN:20;4" into the one of `wanted` that has this name.
-Decoding take_value(std::string_view line, std::span<Told> wanted) noexcept {
+/// "DMIN:20;4" into the one of `wanted` that has this name; false where it is malformed or out of range.
+bool take_value(std::string_view line, std::span<Told> wanted) noexcept {
   const std::size_t semicolon = line.rfind(';');
-  if (semicolon == std::string_view::npos || semicolon + 2 != line.size()) return Decoding::kBadField;
+  if (semicolon == std::string_view::npos || semicolon + 2 != line.size()) return false;
   const std::string_view text = line.substr(0, semicolon);
-  if (checksum(text) != line.back()) return Decoding::kChecksum;
+  if (checksum(text) != line.back()) return false;
   const std::size_t colon = text.find(':');
   for (Told& told : wanted) {
     if (text.substr(0, colon) != told.name) continue;
     told.value = number_in<std::uint32_t>(text.substr(colon + 1));
-    if (!told.value || *told.value < told.least || *told.value > told.most) return Decoding::kBadField;
+    if (!told.value || *told.value < told.least || *told.value > told.most) return false;
   }
-  return Decoding::kScan;
+  return true;
 }
 
 void place(const Question& question, const ScannerModel& model, Time arrival, LaserScan& scan) noexcept {
@@ -143,12 +124,6 @@ void place(const Question& question, const ScannerModel& model, Time arrival, La
 
 /// More scans than this do not go missing on a connection that lives: the scanner began to count anew.
 constexpr std::uint32_t kMostLost = 1000;
-
-/// An answer's status without its checksum: what stands between the first and the second line's end.
-std::string_view status_of(std::string_view answer) noexcept {
-  const std::size_t begin = std::min(answer.find('\n'), answer.size() - 1) + 1;
-  return answer.substr(begin, 2);
-}
 
 }  // namespace
 
@@ -170,21 +145,15 @@ std::optional<std::uint32_t> decode_number(std::string_view characters) noexcept
 }
 
 std::optional<std::string_view> AnswerStream::next() noexcept {
-  queue_.drop(handed_out_);
-  handed_out_ = 0;
-  const wire::Bytes waiting = queue_.waiting();
-  const std::string_view text(reinterpret_cast<const char*>(waiting.data()), waiting.size());
+  const std::string_view text = wire::text_of(waiting());
   const std::size_t end = text.find("\n\n");
   if (end == std::string_view::npos) return std::nullopt;
-  handed_out_ = end + 2;
+  drop(end + 2);
   return text.substr(0, end);
 }
 
-Decoding decode_model(std::string_view answer, ScannerModel& model) noexcept {
-  if (take_line(answer) != "PP") return Decoding::kOtherMessage;
-  const auto status = checked(take_line(answer));
-  if (!status) return Decoding::kChecksum;
-  if (*status != "00") return Decoding::kDeviceError;
+bool decode_model(std::string_view answer, ScannerModel& model) noexcept {
+  if (take_line(answer) != "PP" || checked(take_line(answer)) != "00") return false;
   // Millimetres, steps, turns a minute.
   std::array<Told, 7> told{{{"DMIN", 0, 10000, {}},
                             {"DMAX", 100, 262143, {}},
@@ -196,14 +165,13 @@ Decoding decode_model(std::string_view answer, ScannerModel& model) noexcept {
   bool is_utm_30lx = false;
   while (!answer.empty()) {
     const std::string_view line = take_line(answer);
-    const Decoding decoding = take_value(line, told);
-    if (decoding != Decoding::kScan) return decoding;
+    if (!take_value(line, told)) return false;
     is_utm_30lx = is_utm_30lx || names_utm_30lx(line.substr(0, line.rfind(';')));
   }
   for (const Told& one : told)
-    if (!one.value) return Decoding::kTruncated;
+    if (!one.value) return false;
   const auto value = [&told](std::size_t index) { return *told[index].value; };
-  if (value(3) >= value(4) || value(4) - value(3) >= value(2)) return Decoding::kBadField;  // more than a turn
+  if (value(3) >= value(4) || value(4) - value(3) >= value(2)) return false;  // more than a turn
   model.range_min_m = static_cast<float>(value(0)) * 0.001F;
   model.range_max_m = static_cast<float>(value(1)) * 0.001F;
   model.steps_per_turn = value(2);
@@ -212,37 +180,34 @@ Decoding decode_model(std::string_view answer, ScannerModel& model) noexcept {
   model.front_step = value(5);
   model.period = duration_from_seconds(60.0 / static_cast<double>(value(6)));
   model.one_means_nothing = is_utm_30lx;
-  return Decoding::kScan;
+  return true;
 }
 
-Decoding decode_scan(std::string_view answer, const ScannerModel& model, Time arrival, LaserScan& scan,
-                     std::uint32_t& device_time_ms) noexcept {
+Heard decode_scan(std::string_view answer, const ScannerModel& model, Time arrival, LaserScan& scan,
+                  std::uint32_t& device_time_ms) noexcept {
   const std::string_view echo = take_line(answer);
-  if (!is_scan_command(echo)) return Decoding::kOtherMessage;
+  if (!is_scan_command(echo)) return Heard::kAnswer;
   const auto question = parse_question(echo, model);
-  if (!question) return Decoding::kBadField;
   const auto status = checked(take_line(answer));
-  if (!status) return Decoding::kChecksum;
+  if (!question || !status) return Heard::kMalformed;
   // "00" to M commands announces that scans will come; they, with status "99", and answers to G, "00", have more lines.
-  if (*status != "00" && *status != "99") return Decoding::kDeviceError;
-  if (answer.empty()) return *status == "00" ? Decoding::kOtherMessage : Decoding::kTruncated;
+  if (*status != "00" && *status != "99") return Heard::kDeviceError;
+  if (answer.empty()) return *status == "00" ? Heard::kAnswer : Heard::kMalformed;
   const auto stamp = checked(take_line(answer));
-  if (!stamp) return Decoding::kChecksum;
-  const auto device_time = decode_number(*stamp);
-  if (stamp->size() != 4 || !device_time) return Decoding::kBadField;
-  const Decoding decoding = read_distances(answer, *question, model, scan);
-  if (decoding != Decoding::kScan) return decoding;
+  const auto device_time = stamp ? decode_number(*stamp) : std::nullopt;
+  if (!device_time || stamp->size() != 4) return Heard::kMalformed;
+  if (!read_distances(answer, *question, model, scan)) return Heard::kMalformed;
   device_time_ms = *device_time;
   place(*question, model, arrival, scan);
-  return Decoding::kScan;
+  return Heard::kScan;
 }
 
 void ScipProtocol::begin() noexcept {
   step_ = Step::kDialect;
   asked_ = false;
-  stream_.forget();
+  stream_.clear();
   device_clock_.forget();
-  has_time_ = false;
+  last_time_ms_.reset();
 }
 
 wire::Bytes ScipProtocol::to_say(Time) noexcept {
@@ -275,12 +240,12 @@ Heard ScipProtocol::next(Time arrival, LaserScan& scan) noexcept {
 
 // Before all is said, scans that are still on their way from a former connection are passed over.
 Heard ScipProtocol::on_answer(std::string_view answer) noexcept {
-  const bool of_this = asked_ && answer.substr(0, answer.find('\n')) == said_;
-  if (!of_this) return Heard::kAnswer;
-  const std::string_view status = status_of(answer);
+  std::string_view rest = answer;
+  if (take_line(rest) != said_ || !asked_) return Heard::kAnswer;
+  const std::string_view status = rest.substr(0, 2);  // without its checksum
   // "02" to BM: the laser is on already. A refused SCIP2.0: it speaks that already.
   const bool taken = step_ == Step::kDialect || status == "00" || (step_ == Step::kLaserOn && status == "02");
-  const bool read = step_ != Step::kAsk || decode_model(answer, model_) == Decoding::kScan;
+  const bool read = step_ != Step::kAsk || decode_model(answer, model_);
   if (!taken || !read) return Heard::kRefused;
   go_on();
   return Heard::kAnswer;
@@ -306,7 +271,7 @@ Heard ScipProtocol::on_scan(std::string_view answer, Time arrival, LaserScan& sc
   }
   skipped_ += begin;
   std::uint32_t device_time_ms = 0;
-  const Heard heard = heard_of(decode_scan(answer.substr(begin), model_, arrival, scan, device_time_ms));
+  const Heard heard = decode_scan(answer.substr(begin), model_, arrival, scan, device_time_ms);
   if (heard == Heard::kScan) {
     count_lost(device_time_ms);
     scan.stamp -= device_clock_.delay(device_time_ms, arrival);
@@ -316,10 +281,9 @@ Heard ScipProtocol::on_scan(std::string_view answer, Time arrival, LaserScan& sc
 
 // Scans are not numbered: one that is missing shows as two periods between two.
 void ScipProtocol::count_lost(std::uint32_t device_time_ms) noexcept {
-  const std::uint32_t between_ms = (device_time_ms - last_time_ms_) % kClockTicks;
+  const std::uint32_t between_ms = (device_time_ms - last_time_ms_.value_or(0)) % kClockTicks;
   const double periods = static_cast<double>(between_ms) * 1e-3 / to_seconds(model_.period);
-  if (has_time_ && periods > 1.5 && periods < kMostLost) lost_ += static_cast<std::uint64_t>(periods - 0.5);
-  has_time_ = true;
+  if (last_time_ms_ && periods > 1.5 && periods < kMostLost) lost_ += static_cast<std::uint64_t>(periods - 0.5);
   last_time_ms_ = device_time_ms;
 }
 

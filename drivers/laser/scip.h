@@ -1,7 +1,6 @@
 #pragma once
 // Hokuyo's SCIP 2.0: lines of text, six bits a character, a checksum a line.
 #include <array>
-#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string_view>
@@ -17,22 +16,11 @@ namespace jaywalk::scip {
 /// The number that 1 to 5 characters hold, six bits each, highest first; nothing where one is outside 30h to 6Fh.
 [[nodiscard]] std::optional<std::uint32_t> decode_number(std::string_view characters) noexcept;
 
-/// Cuts a stream into answers: lines that end at an empty one.
-class AnswerStream {
- public:
-  void append(wire::Bytes bytes) noexcept { queue_.append(bytes); }
-  /// Drops what waits, uncounted: another connection begins.
-  void forget() noexcept {
-    queue_.clear();
-    handed_out_ = 0;
-  }
-  /// The next whole answer without its empty line; valid until the next call.
+/// Cuts a stream into answers: lines that end at an empty one. 2048 beams of three characters, and their lines, are
+/// 6.4 kB.
+struct AnswerStream : wire::ByteQueue<16384> {
+  /// The next whole answer without its empty line; valid until the next append.
   [[nodiscard]] std::optional<std::string_view> next() noexcept;
-  [[nodiscard]] std::uint64_t lost() const noexcept { return queue_.lost(); }
-
- private:
-  wire::ByteQueue<16384> queue_;  // 2048 beams of three characters, and their lines, are 6.4 kB
-  std::size_t handed_out_ = 0;
 };
 
 /// What a scanner tells about itself in its answer to PP.
@@ -49,8 +37,8 @@ struct ScannerModel {
 };
 
 /// Reads the answer to PP: lines "DMIN:20;4", the last character the checksum of what stands before the semicolon.
-/// kScan where `model` is filled; a value that no scanner has is a bad field, one that is not told is cut off.
-[[nodiscard]] Decoding decode_model(std::string_view answer, ScannerModel& model) noexcept;
+/// False for any other answer, and for one with a value that no scanner has, or without one that is needed.
+[[nodiscard]] bool decode_model(std::string_view answer, ScannerModel& model) noexcept;
 
 /// Decodes an answer to MD, MS, GD or GS (distances of the first echo) into `scan`, all but its sequence.
 ///
@@ -58,8 +46,8 @@ struct ScannerModel {
 /// line held it is not known here. Distances below range_min_m are the scanner's error codes: they prove nothing but
 /// the one by which a UTM-30LX says that it found nothing. Nor does 65533, which newer models say for nothing in range
 /// as well as for too little light. `device_time_ms` is the scanner's own clock, 24 bits.
-[[nodiscard]] Decoding decode_scan(std::string_view answer, const ScannerModel& model, Time arrival, LaserScan& scan,
-                                   std::uint32_t& device_time_ms) noexcept;
+[[nodiscard]] Heard decode_scan(std::string_view answer, const ScannerModel& model, Time arrival, LaserScan& scan,
+                                std::uint32_t& device_time_ms) noexcept;
 
 /// Makes a Hokuyo of SCIP 2.0 or 2.2 send scans, over TCP (port 10940) or a serial line: have it speak SCIP 2.0, as a
 /// URG-04LX does not from the start, stop what it may still be sending, ask what it is, laser on, all its steps in
@@ -69,12 +57,11 @@ class ScipProtocol final : public ScannerProtocol {
  public:
   void begin() noexcept override;
   [[nodiscard]] wire::Bytes to_say(Time now) noexcept override;
-  [[nodiscard]] bool awaits_answer() const noexcept override { return asked_; }
   /// True at SCIP2.0, the command that chooses the protocol: scanners that always speak it may not know the command.
   [[nodiscard]] bool go_on_unanswered() noexcept override;
   void hear(wire::Bytes bytes) noexcept override { stream_.append(bytes); }
   [[nodiscard]] Heard next(Time arrival, LaserScan& scan) noexcept override;
-  [[nodiscard]] ProtocolCounts counts() const noexcept override { return {lost_, skipped_ + stream_.lost(), 0, 0}; }
+  [[nodiscard]] ProtocolCounts counts() const noexcept override { return {lost_, skipped_ + stream_.skipped(), 0, 0}; }
 
  private:
   enum class Step : std::uint8_t { kDialect, kQuiet, kAsk, kLaserOn, kScans, kDone };
@@ -86,14 +73,12 @@ class ScipProtocol final : public ScannerProtocol {
   void count_lost(std::uint32_t device_time_ms) noexcept;
 
   Step step_ = Step::kDialect;
-  bool asked_ = false;
   std::array<char, 20> command_{};
   std::string_view said_;  ///< the command without its end, which answers repeat
   ScannerModel model_;
   AnswerStream stream_;
   DeviceClock device_clock_{std::chrono::milliseconds(1), kClockTicks};
-  bool has_time_ = false;
-  std::uint32_t last_time_ms_ = 0;
+  std::optional<std::uint32_t> last_time_ms_;
   std::uint64_t lost_ = 0;
   std::uint64_t skipped_ = 0;
 

@@ -19,8 +19,8 @@ class BinaryFields {
   std::uint32_t u16() noexcept { return reader_.big<std::uint16_t>(); }
   std::uint32_t u32() noexcept { return reader_.big<std::uint32_t>(); }
   /// A channel's name has five letters.
-  std::string_view word() noexcept { return text_of(reader_.take(5)); }
-  [[nodiscard]] Decoding failure() const noexcept { return reader_.ok() ? Decoding::kScan : Decoding::kTruncated; }
+  std::string_view word() noexcept { return wire::text_of(reader_.take(5)); }
+  [[nodiscard]] bool ok() const noexcept { return reader_.ok(); }
 
  private:
   wire::ByteReader reader_;
@@ -29,7 +29,7 @@ class BinaryFields {
 /// The fields of a CoLa A body: words between blanks, numbers in hexadecimal.
 class TextFields {
  public:
-  explicit TextFields(wire::Bytes body) noexcept : rest_(text_of(body)) {}
+  explicit TextFields(wire::Bytes body) noexcept : rest_(wire::text_of(body)) {}
 
   std::uint32_t u8() noexcept { return number(0xFF); }
   std::uint32_t u16() noexcept { return number(0xFFFF); }
@@ -38,10 +38,10 @@ class TextFields {
     rest_.remove_prefix(std::min(rest_.find_first_not_of(' '), rest_.size()));
     const std::string_view found = rest_.substr(0, rest_.find(' '));
     rest_.remove_prefix(found.size());
-    if (found.empty()) fail(Decoding::kTruncated);
+    if (found.empty()) ok_ = false;
     return found;
   }
-  [[nodiscard]] Decoding failure() const noexcept { return failure_; }
+  [[nodiscard]] bool ok() const noexcept { return ok_; }
 
  private:
   std::uint32_t number(std::uint32_t largest) noexcept {
@@ -49,15 +49,12 @@ class TextFields {
     std::uint32_t value = 0;
     const auto parsed = std::from_chars(digits.data(), digits.data() + digits.size(), value, 16);
     if (parsed.ec == std::errc{} && parsed.ptr == digits.data() + digits.size() && value <= largest) return value;
-    fail(Decoding::kBadField);
+    ok_ = false;
     return 0;
-  }
-  void fail(Decoding why) noexcept {
-    if (failure_ == Decoding::kScan) failure_ = why;
   }
 
   std::string_view rest_;
-  Decoding failure_ = Decoding::kScan;
+  bool ok_ = true;
 };
 
 /// How a channel's numbers become lengths and angles.
@@ -98,9 +95,8 @@ bool is_plausible(const Channel& channel) noexcept {
 }
 
 template <class Fields>
-Decoding read_distances(Fields& fields, const Channel& channel, LaserScan& scan) noexcept {
-  if (channel.count > kMaxBeams) return Decoding::kTooManyBeams;
-  if (!is_plausible(channel)) return Decoding::kBadField;
+bool read_distances(Fields& fields, const Channel& channel, LaserScan& scan) noexcept {
+  if (channel.count > kMaxBeams || !is_plausible(channel)) return false;
   scan.beam_count = channel.count;
   scan.first_angle_rad = static_cast<float>(channel.first_angle_rad);
   scan.angle_step_rad = static_cast<float>(channel.step_rad);
@@ -109,58 +105,57 @@ Decoding read_distances(Fields& fields, const Channel& channel, LaserScan& scan)
     const bool measured = counts >= kLeastCounts && counts < kBeyondCounts;
     scan.range_m[beam] = measured ? static_cast<float>(counts) * channel.metres_per_count + channel.offset_m : 0.0F;
   }
-  return fields.failure();
+  return fields.ok();
 }
 
 /// The header up to the number of encoders; the scanner's frequency in hundredths of a hertz.
 template <class Fields>
-Decoding read_header(Fields& fields, ScanHeader& header, std::uint32_t& frequency_centihertz) noexcept {
+Heard read_header(Fields& fields, ScanHeader& header, std::uint32_t& frequency_centihertz) noexcept {
   fields.u16();  // version
   fields.u16();  // device number
-  header.serial_number = fields.u32();
+  fields.u32();  // serial number
   fields.u8();
   const std::uint32_t status = fields.u8();
   header.telegram_counter = static_cast<std::uint16_t>(fields.u16());
-  header.scan_counter = static_cast<std::uint16_t>(fields.u16());
+  fields.u16();  // scan counter
   header.scan_time_us = fields.u32();
   header.sent_time_us = fields.u32();
   for (int inputs_and_outputs = 0; inputs_and_outputs < 4; ++inputs_and_outputs) fields.u8();
   fields.u16();  // layer angle
   frequency_centihertz = fields.u32();
   fields.u32();  // measuring frequency
-  if (fields.failure() != Decoding::kScan) return fields.failure();
+  if (!fields.ok()) return Heard::kMalformed;
   header.warns_of_dirt = (status & kDirtWarning) != 0;
-  if ((status & kError) != 0) return Decoding::kDeviceError;
-  if ((status & kDirtError) != 0) return Decoding::kDirty;
-  return frequency_centihertz >= 10 && frequency_centihertz <= 100000 ? Decoding::kScan : Decoding::kBadField;
+  if ((status & kError) != 0) return Heard::kDeviceError;
+  if ((status & kDirtError) != 0) return Heard::kDirty;
+  return frequency_centihertz >= 10 && frequency_centihertz <= 100000 ? Heard::kScan : Heard::kMalformed;
 }
 
+/// False where there is no channel of first distances.
 template <class Fields>
-Decoding read_channels(Fields& fields, LaserScan& scan) noexcept {
+bool read_channels(Fields& fields, LaserScan& scan) noexcept {
   const std::uint32_t encoders = fields.u16();
-  if (encoders > 3) return Decoding::kBadField;
+  if (encoders > 3) return false;
   for (std::uint32_t k = 0; k < encoders; ++k) {
     fields.u32();
     fields.u16();
   }
   const std::uint32_t channels = fields.u16();
-  for (std::uint32_t k = 0; k < channels && fields.failure() == Decoding::kScan; ++k) {
+  for (std::uint32_t k = 0; k < channels && fields.ok(); ++k) {
     const Channel channel = read_channel(fields);
-    if (fields.failure() != Decoding::kScan) break;
+    if (!fields.ok()) break;
     if (channel.is_distance) return read_distances(fields, channel, scan);
     for (std::uint32_t value = 0; value < channel.count; ++value) fields.u16();
   }
-  return fields.failure() == Decoding::kScan ? Decoding::kNoDistances : fields.failure();
+  return false;
 }
 
 template <class Fields>
-Decoding read_scan(Fields fields, const ScannerModel& model, Time arrival, LaserScan& scan,
-                   ScanHeader& header) noexcept {
+Heard read_scan(Fields fields, const ScannerModel& model, Time arrival, LaserScan& scan, ScanHeader& header) noexcept {
   std::uint32_t frequency_centihertz = 0;
-  const Decoding of_header = read_header(fields, header, frequency_centihertz);
-  if (of_header != Decoding::kScan) return of_header;
-  const Decoding of_channels = read_channels(fields, scan);
-  if (of_channels != Decoding::kScan) return of_channels;
+  const Heard of_header = read_header(fields, header, frequency_centihertz);
+  if (of_header != Heard::kScan) return of_header;
+  if (!read_channels(fields, scan)) return Heard::kMalformed;
   const double period_s = 100.0 / static_cast<double>(frequency_centihertz);
   const double swept_rad =
       static_cast<double>(scan.angle_step_rad) * (scan.beam_count > 0 ? scan.beam_count - 1.0 : 0.0);
@@ -170,13 +165,14 @@ Decoding read_scan(Fields fields, const ScannerModel& model, Time arrival, Laser
   scan.stamp = arrival - std::min(held, scan.period) - scan.sweep;
   scan.range_min_m = model.range_min_m;
   scan.range_max_m = model.range_max_m;
-  return Decoding::kScan;
+  return Heard::kScan;
 }
 
 using namespace std::string_view_literals;
 
-// "client", hashed as the scanner wants it; level 3 is the authorised client.
+/// Word of each command, which its answer repeats.
 constexpr std::array<std::string_view, 4> kWords{"SetAccessMode", "LMDscandatacfg", "Run", "LMDscandata"};
+// "client", hashed as the scanner wants it; level 3 is the authorised client.
 // Channel 1, no remission, 16 bits, unit 0, no encoder, no position, no name, no comment, no time, every scan.
 constexpr std::array<std::string_view, 4> kInText{"sMN SetAccessMode 03 F4724744"sv,
                                                   "sWN LMDscandatacfg 01 00 0 1 0 00 00 0 0 0 0 +1"sv, "sMN Run"sv,
@@ -189,42 +185,32 @@ constexpr std::uint16_t kMostLost = 1000;
 
 }  // namespace
 
-Decoding decode_scan(Cola dialect, wire::Bytes body, const ScannerModel& model, Time arrival, LaserScan& scan,
-                     ScanHeader& header) noexcept {
+Heard decode_scan(Cola dialect, wire::Bytes body, const ScannerModel& model, Time arrival, LaserScan& scan,
+                  ScanHeader& header) noexcept {
   // Sent on its own (sSN) or in answer to one question (sRA).
-  const std::string_view text = text_of(body);
+  const std::string_view text = wire::text_of(body);
   const std::string_view kind = text.substr(0, 16);
-  if (kind != "sSN LMDscandata " && kind != "sRA LMDscandata ") return Decoding::kOtherMessage;
+  if (kind != "sSN LMDscandata " && kind != "sRA LMDscandata ") return Heard::kAnswer;
   const wire::Bytes fields = body.subspan(kind.size());
   return dialect == Cola::kA ? read_scan(TextFields(fields), model, arrival, scan, header)
                              : read_scan(BinaryFields(fields), model, arrival, scan, header);
 }
 
-SickProtocol::SickProtocol(Cola dialect, const ScannerModel& model) noexcept
-    : dialect_(dialect), model_(model), stream_(dialect) {
-  speak(dialect);
-}
-
-void SickProtocol::speak(Cola dialect) noexcept {
-  dialect_ = dialect;
-  const auto& commands = dialect == Cola::kA ? kInText : kInBinary;
-  for (std::size_t k = 0; k < steps_.size(); ++k) steps_[k] = {framed(dialect, commands[k]), kWords[k]};
-  stream_.begin(dialect);
-}
-
 void SickProtocol::begin() noexcept {
   at_ = 0;
   asked_ = false;
-  speak(tried_ && !understood_ ? other(dialect_) : dialect_);
+  if (tried_ && !understood_) dialect_ = dialect_ == Cola::kA ? Cola::kB : Cola::kA;
+  stream_.begin(dialect_);
   tried_ = true;
   device_clock_.forget();
-  has_counter_ = false;
+  last_counter_.reset();
 }
 
 wire::Bytes SickProtocol::to_say(Time) noexcept {
-  if (asked_ || at_ == steps_.size()) return {};
+  if (asked_ || at_ == kWords.size()) return {};
   asked_ = true;
-  return {steps_[at_].command.data(), steps_[at_].command.size()};
+  said_ = framed(dialect_, (dialect_ == Cola::kA ? kInText : kInBinary)[at_]);
+  return {said_.data(), said_.size()};
 }
 
 Heard SickProtocol::next(Time arrival, LaserScan& scan) noexcept {
@@ -232,8 +218,8 @@ Heard SickProtocol::next(Time arrival, LaserScan& scan) noexcept {
   if (!body) return Heard::kNothing;
   understood_ = true;
   ScanHeader header;
-  const Heard heard = heard_of(decode_scan(dialect_, *body, model_, arrival, scan, header));
-  if (heard == Heard::kAnswer) return on_answer(text_of(*body));
+  const Heard heard = decode_scan(dialect_, *body, model_, arrival, scan, header);
+  if (heard == Heard::kAnswer) return on_answer(wire::text_of(*body));
   if (heard == Heard::kScan) {
     count_lost(header.telegram_counter);
     if (header.warns_of_dirt) ++warned_;
@@ -249,7 +235,7 @@ Heard SickProtocol::on_answer(std::string_view body) noexcept {
   if (body.substr(0, 3) != "sFA") {
     const std::string_view rest = body.substr(std::min<std::size_t>(4, body.size()));
     const std::string_view word = rest.substr(0, rest.find(' '));
-    if (word != steps_[at_].word) return Heard::kAnswer;
+    if (word != kWords[at_]) return Heard::kAnswer;
     const char last = rest.back();
     taken = word.size() == rest.size() || last == '1' || last == '\x01';
   }
@@ -257,7 +243,7 @@ Heard SickProtocol::on_answer(std::string_view body) noexcept {
 }
 
 bool SickProtocol::conclude(bool taken) noexcept {
-  const bool must = at_ + 1 == steps_.size();
+  const bool must = at_ + 1 == kWords.size();
   if (!taken && must) return false;
   asked_ = false;
   ++at_;
@@ -266,12 +252,9 @@ bool SickProtocol::conclude(bool taken) noexcept {
 }
 
 void SickProtocol::count_lost(std::uint16_t telegram_counter) noexcept {
-  const auto missing = static_cast<std::uint16_t>(telegram_counter - last_counter_ - 1);
-  if (has_counter_ && missing <= kMostLost) lost_ += missing;
-  has_counter_ = true;
+  const auto missing = static_cast<std::uint16_t>(telegram_counter - last_counter_.value_or(0) - 1);
+  if (last_counter_ && missing <= kMostLost) lost_ += missing;
   last_counter_ = telegram_counter;
 }
-
-ProtocolCounts SickProtocol::counts() const noexcept { return {lost_, stream_.skipped(), refused_, warned_}; }
 
 }  // namespace jaywalk::sick

@@ -8,6 +8,8 @@
 namespace jaywalk {
 namespace {
 
+/// Longest time that a motor takes to get over its fault when it is enabled.
+constexpr Duration kSettling = std::chrono::milliseconds(300);
 constexpr Duration kShownFor = std::chrono::milliseconds(500);
 constexpr int kReportsShown = 10;          // of the period stated, in a proof
 constexpr double kShareShown = 0.8;        // of those that its period promises
@@ -126,7 +128,7 @@ void MotorPair::reset() noexcept {
 // What a motor complains of while nobody commands it (its watchdog) is forgotten here; what remains is a fault.
 void MotorPair::begin_enabling() noexcept {
   awaits_zero_ = false;
-  settled_ = clock_.now() + setup_.settling;
+  settled_ = clock_.now() + kSettling;
   for (std::size_t k = 0; k < axes_.size(); ++k) send_reset(k);
 }
 

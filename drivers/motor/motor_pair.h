@@ -54,7 +54,6 @@ struct MotorAxis {
 
 struct PairSetup {
   Duration silence_limit{};  ///< a motor that says nothing for so long is lost
-  Duration settling{};       ///< what a motor may take to get over its fault when it is enabled
   Duration answer_limit{};   ///< what a motor may take to show itself before its proof
   StopLimits stop;
   bool allow_unproved = false;
@@ -83,9 +82,7 @@ class MotorPair : public WiredDrive {
   [[nodiscard]] DriveTrouble trouble() const noexcept override { return trouble_; }
   [[nodiscard]] bool is_silent() const noexcept override { return is_late(axes_[0].heard) || is_late(axes_[1].heard); }
   void reset() noexcept override;
-  [[nodiscard]] bool is_enabled() const noexcept override {
-    return std::all_of(axes_.begin(), axes_.end(), [](const MotorAxis& a) { return a.obeys; });
-  }
+  [[nodiscard]] bool is_enabled() const noexcept override { return axes_[0].obeys && axes_[1].obeys; }
   [[nodiscard]] bool is_proved() const noexcept override { return proved_; }
   [[nodiscard]] std::optional<CanFrame> foreign_frame() const noexcept override { return foreign_; }
   /// Wheels that still turn are braked first.
@@ -98,8 +95,8 @@ class MotorPair : public WiredDrive {
   /// Takes in one frame; keeps its axis up to date.
   virtual void take(const ReceivedFrame& received) noexcept = 0;
   virtual void send_order(std::size_t axis, MotorOrder order, double speed_radps) noexcept = 0;
-  /// What makes the motor forget its fault.
-  virtual void send_reset(std::size_t axis) noexcept = 0;
+  /// Sends what makes the motor forget its fault, where it does not by itself.
+  virtual void send_reset(std::size_t /*axis*/) noexcept {}
   /// Has motors show themselves that do not by themselves: once a cycle until they do; `anew`: when that begins.
   virtual void wake(bool /*anew*/) noexcept {}
   /// Begins the proof of one motor, which shows itself and stands by then.
@@ -115,7 +112,7 @@ class MotorPair : public WiredDrive {
   [[nodiscard]] const MotorAxis& axis(std::size_t index) const noexcept { return axes_[index]; }
   [[nodiscard]] Clock& clock() noexcept { return clock_; }
   void send(const CanFrame& frame) noexcept {
-    if (bus_.send(frame) != SendResult::kQueued) latch(DriveTrouble::kBusRefused);
+    if (!bus_.send(frame)) latch(DriveTrouble::kBusRefused);
   }
   /// Lets a millisecond pass and takes in what came. Start-up only.
   void pass_time();

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "drivers/wire/byte_reader.h"
-#include "drivers/wired_drive.h"
 #include "hal/shown_text.h"
 #include "hal/types/errors.h"
 
@@ -27,14 +26,9 @@ CanFrame command(std::uint8_t node, std::uint32_t number, std::uint8_t size, std
   return frame;
 }
 
-std::optional<Message> decode_estimates(std::uint8_t node, wire::ByteReader reader) noexcept {
-  const auto position = std::bit_cast<float>(reader.little<std::uint32_t>());
-  const auto velocity = std::bit_cast<float>(reader.little<std::uint32_t>());
-  if (!reader.ok() || !std::isfinite(position) || !std::isfinite(velocity)) return std::nullopt;
-  return Message{node, EncoderEstimates{position, velocity}};
-}
-
 constexpr Duration kAnswerLimit = std::chrono::seconds(1);
+/// An axis is set to say its heartbeat no more often (heartbeat_msg_rate_ms); more are a second axis with its number.
+constexpr Duration kHeartbeatLeast = std::chrono::milliseconds(10);
 constexpr Duration kFeeding = std::chrono::milliseconds(10);  ///< well within any watchdog that passes
 constexpr double kStill_radps = 0.05;                         ///< noise of an encoder at rest
 constexpr double kHeld_radps = 0.3;  ///< and of one whose motor is held: 3 cm/s at a wheel of 0.1 m
@@ -43,8 +37,8 @@ std::string in_hex(std::uint32_t number) { return formatted("%08Xh", static_cast
 
 }  // namespace
 
-CanFrame set_axis_state(std::uint8_t node, AxisState state) noexcept {
-  return command(node, kSetAxisState, 4, static_cast<std::uint32_t>(state));
+CanFrame set_axis_state(std::uint8_t node, std::uint8_t state) noexcept {
+  return command(node, kSetAxisState, 4, state);
 }
 
 CanFrame set_velocity_mode(std::uint8_t node, bool ramped) noexcept {
@@ -80,7 +74,12 @@ std::optional<Message> decode(const CanFrame& frame) noexcept {
                                 reader.little<std::uint8_t>()};
       return reader.ok() ? std::optional(Message{node, heartbeat}) : std::nullopt;
     }
-    case kEstimates: return decode_estimates(node, reader);
+    case kEstimates: {
+      const EncoderEstimates said{std::bit_cast<float>(reader.little<std::uint32_t>()),
+                                  std::bit_cast<float>(reader.little<std::uint32_t>())};
+      const bool finite = std::isfinite(said.position_turns) && std::isfinite(said.velocity_turns_per_s);
+      return reader.ok() && finite ? std::optional(Message{node, said}) : std::nullopt;
+    }
     default: return std::nullopt;
   }
 }
@@ -90,10 +89,11 @@ std::string error_words(std::uint32_t errors) {
   return in_hex(errors) + (words.empty() ? "" : " (" + words + ")");
 }
 
-void WatchdogProof::begin(std::uint8_t node, const ProofLimits& limits, Time now) noexcept {
+void WatchdogProof::begin(std::uint8_t node, Duration least, Duration most, Time now) noexcept {
   *this = WatchdogProof();
   node_ = node;
-  limits_ = limits;
+  least_ = least;
+  most_ = most;
   result_ = ProofResult::kUnderWay;
   enter(Stage::kBegin, now);
 }
@@ -105,62 +105,66 @@ void WatchdogProof::enter(Stage stage, Time now) noexcept {
 
 std::span<const CanFrame> WatchdogProof::step(Time now, const AxisReport& axis) noexcept {
   due_count_ = 0;
-  errors_ = axis.errors;
-  procedure_ = axis.procedure;
+  axis_ = axis;
   const bool held = stage_ == Stage::kClose || stage_ == Stage::kWithhold;
   if (held && std::fabs(axis.speed_radps) > kHeld_radps) {
     finish(ProofResult::kFailed, Verdict::kTurns);
-  } else if (stage_ == Stage::kBegin) {
-    add(set_axis_state(node_, AxisState::kIdle));
-    add(set_velocity_mode(node_, true));
-    add(set_velocity(node_, 0.0F));  // before the errors go: or the watchdog makes one of them again
-    add(clear_errors(node_));
-    fed_ = now;
-    enter(Stage::kClear, now);
-  } else if (stage_ == Stage::kClear) {
-    clear(now, axis);
-  } else if (stage_ == Stage::kClose) {
-    close(now, axis);
-  } else if (stage_ == Stage::kWithhold) {
-    withhold(now, axis);
+  } else {
+    switch (stage_) {
+      case Stage::kBegin: begin_clearing(now); break;
+      case Stage::kClear: clear(now); break;
+      case Stage::kClose: close(now); break;
+      case Stage::kWithhold: withhold(now); break;
+      case Stage::kDone: break;
+    }
   }
   return std::span(due_).first(due_count_);
 }
 
-void WatchdogProof::clear(Time now, const AxisReport& axis) noexcept {
-  if (axis.heard > since_ && axis.state == kIdle && axis.errors == 0) {
-    if (std::fabs(axis.speed_radps) > kStill_radps) return finish(ProofResult::kFailed, Verdict::kTurns);
-    add(set_axis_state(node_, AxisState::kClosedLoop));
-    add(set_velocity(node_, 0.0F));
-    fed_ = now;
-    return enter(Stage::kClose, now);
-  }
-  if (now - since_ > kAnswerLimit)
-    return finish(ProofResult::kFailed, was_heard(axis) ? Verdict::kDoesNotClear : Verdict::kSilent);
-  feed(now);
+void WatchdogProof::begin_clearing(Time now) noexcept {
+  add(set_axis_state(node_, kIdle));
+  add(set_velocity_mode(node_, true));
+  add(set_velocity(node_, 0.0F));  // before the errors go: or the watchdog makes one of them again
+  add(clear_errors(node_));
+  fed_ = now;
+  enter(Stage::kClear, now);
 }
 
-void WatchdogProof::close(Time now, const AxisReport& axis) noexcept {
-  if (axis.heard > since_ && axis.state == kClosedLoop && axis.errors == 0) {
-    add(set_velocity(node_, 0.0F));
-    return enter(Stage::kWithhold, now);
-  }
+bool WatchdogProof::reaches(std::uint8_t state, Time now, Verdict otherwise) noexcept {
+  if (was_heard() && axis_.state == state && axis_.errors == 0) return true;
   if (now - since_ > kAnswerLimit)
-    return finish(ProofResult::kFailed, was_heard(axis) ? Verdict::kDoesNotClose : Verdict::kSilent);
-  feed(now);
+    finish(ProofResult::kFailed, was_heard() ? otherwise : Verdict::kSilent);
+  else
+    feed(now);
+  return false;
 }
 
-void WatchdogProof::withhold(Time now, const AxisReport& axis) noexcept {
-  const bool expired = axis.expired != kNever && axis.expired >= since_;
-  after_ = (expired ? axis.expired : now) - since_;
-  const bool expired_as_05 = !expired && axis.heard > since_ && (axis.errors & kWatchdogExpired05) != 0;
-  if (expired_as_05 && axis.state != kClosedLoop) return finish(ProofResult::kUnproved, Verdict::kOldFirmware);
-  if (!expired && after_ < limits_.watchdog_most) return;
-  if (!was_heard(axis)) return finish(ProofResult::kFailed, Verdict::kSilent);
+void WatchdogProof::clear(Time now) noexcept {
+  if (!reaches(kIdle, now, Verdict::kDoesNotClear)) return;
+  if (std::fabs(axis_.speed_radps) > kStill_radps) return finish(ProofResult::kFailed, Verdict::kTurns);
+  add(set_axis_state(node_, kClosedLoop));
+  add(set_velocity(node_, 0.0F));
+  fed_ = now;
+  enter(Stage::kClose, now);
+}
+
+void WatchdogProof::close(Time now) noexcept {
+  if (!reaches(kClosedLoop, now, Verdict::kDoesNotClose)) return;
+  add(set_velocity(node_, 0.0F));
+  enter(Stage::kWithhold, now);
+}
+
+void WatchdogProof::withhold(Time now) noexcept {
+  const bool expired = axis_.expired != kNever && axis_.expired >= since_;
+  after_ = (expired ? axis_.expired : now) - since_;
+  const bool expired_as_05 = !expired && was_heard() && (axis_.errors & kWatchdogExpired05) != 0;
+  if (expired_as_05 && axis_.state != kClosedLoop) return finish(ProofResult::kUnproved, Verdict::kOldFirmware);
+  if (!expired && after_ < most_) return;
+  if (!was_heard()) return finish(ProofResult::kFailed, Verdict::kSilent);
   if (!expired) return finish(ProofResult::kUnproved, Verdict::kNothingSaid);
-  if (axis.state == kClosedLoop) return finish(ProofResult::kUnproved, Verdict::kHoldsOn);
-  if (after_ < limits_.watchdog_least) return finish(ProofResult::kUnproved, Verdict::kHasty);
-  if (after_ > limits_.watchdog_most) return finish(ProofResult::kUnproved, Verdict::kLate);
+  if (axis_.state == kClosedLoop) return finish(ProofResult::kUnproved, Verdict::kHoldsOn);
+  if (after_ < least_) return finish(ProofResult::kUnproved, Verdict::kHasty);
+  if (after_ > most_) return finish(ProofResult::kUnproved, Verdict::kLate);
   finish(ProofResult::kPassed, Verdict::kNone);
 }
 
@@ -174,23 +178,22 @@ void WatchdogProof::finish(ProofResult result, Verdict verdict) noexcept {
   result_ = result;
   verdict_ = verdict;
   stage_ = Stage::kDone;
-  add(set_axis_state(node_, AxisState::kIdle));
+  add(set_axis_state(node_, kIdle));
   add(clear_errors(node_));
 }
 
 std::string WatchdogProof::line() const {
-  const std::string said = " " + std::to_string(std::chrono::duration_cast<std::chrono::milliseconds>(after_).count()) +
-                           " ms after the last command";
+  const std::string said = " " + std::to_string(after_ / std::chrono::milliseconds(1)) + " ms after the last command";
   switch (verdict_) {
     case Verdict::kSilent: return "no heartbeat any more: NOT PROVED";
-    case Verdict::kDoesNotClear: return "errors " + error_words(errors_) + " that do not clear: NOT PROVED";
+    case Verdict::kDoesNotClear: return "errors " + error_words(axis_.errors) + " that do not clear: NOT PROVED";
     case Verdict::kTurns: return "turns, which it must not for the proof: NOT PROVED";
     case Verdict::kDoesNotClose:
-      return "does not go to closed loop, errors " + error_words(errors_) + ", procedure result " +
-             std::to_string(procedure_) + " (" + odrive_procedure_words(procedure_) + "): NOT PROVED";
+      return "does not go to closed loop, errors " + error_words(axis_.errors) + ", procedure result " +
+             std::to_string(axis_.procedure) + " (" + odrive_procedure_words(axis_.procedure) + "): NOT PROVED";
     case Verdict::kNothingSaid: return "watchdog: nothing said" + said + ": NOT PROVED";
     case Verdict::kOldFirmware:
-      return "watchdog: expired" + said + " with error " + in_hex(errors_) +
+      return "watchdog: expired" + said + " with error " + in_hex(axis_.errors) +
              ", as firmware 0.5 says it: its firmware is too old, 0.6 is wanted: NOT PROVED";
     case Verdict::kHoldsOn: return "watchdog: expired" + said + ", and holds on: NOT PROVED";
     case Verdict::kHasty: return "watchdog: expired" + said + ", too soon for two commands: NOT PROVED";
@@ -213,15 +216,13 @@ std::string WatchdogProof::remedy() const {
 }
 
 OdriveBase::OdriveBase(CanBus& bus, Clock& clock, const BaseSetup& setup)
-    : MotorPair(bus, clock,
-                {setup.silence_limit, setup.settling, std::chrono::seconds(1), setup.stop, setup.allow_unproved}),
-      setup_(setup) {
-  require_axes(setup.axes, {"ODrive node", 0, 62});
+    : MotorPair(bus, clock, {setup.silence_limit, kAnswerLimit, setup.stop, setup.allow_unproved}), setup_(setup) {
+  require_axes(setup.axes, "ODrive node", 0, 62);
 }
 
 std::string OdriveBase::inspect(std::size_t side) {
   await_motor(side);
-  return who(side) + "heartbeat and encoder estimates; errors " + error_words(seen_[side].errors) +
+  return who(side) + "heartbeat and encoder estimates; errors " + error_words(seen_[side].said.errors) +
          "; whether its watchdog lets go is seen at arming, which takes torque";
 }
 
@@ -232,10 +233,10 @@ StartupError OdriveBase::absence(std::size_t index) const {
 }
 
 ProofResult OdriveBase::continue_proof(std::size_t index) noexcept {
-  const Seen& seen = seen_[index];
-  const AxisReport report{axis(index).heard, seen.expired,   seen.errors,
-                          seen.state,        seen.procedure, axis(index).speed_radps};
-  for (const CanFrame& frame : proofs_[index].step(clock().now(), report)) send(frame);
+  AxisReport& said = seen_[index].said;
+  said.heard = axis(index).heard;
+  said.speed_radps = axis(index).speed_radps;
+  for (const CanFrame& frame : proofs_[index].step(clock().now(), said)) send(frame);
   return proofs_[index].result();
 }
 
@@ -247,7 +248,7 @@ void OdriveBase::take(const ReceivedFrame& received) noexcept {
   for (std::size_t k = 0; k < setup_.axes.size(); ++k) {
     if (message->node != setup_.axes[k].node) continue;
     if (const auto* heartbeat = std::get_if<Heartbeat>(&message->content)) {
-      if (!seen_[k].heartbeats.take_at(received.stamp, setup_.heartbeat_least)) note_foreign(received.frame);
+      if (!seen_[k].heartbeats.take_at(received.stamp, kHeartbeatLeast)) note_foreign(received.frame);
       take_heartbeat(k, *heartbeat, received.stamp);
     }
     if (const auto* estimates = std::get_if<EncoderEstimates>(&message->content))
@@ -256,13 +257,13 @@ void OdriveBase::take(const ReceivedFrame& received) noexcept {
 }
 
 void OdriveBase::take_heartbeat(std::size_t index, const Heartbeat& heartbeat, Time stamp) noexcept {
-  Seen& seen = seen_[index];
+  AxisReport& said = seen_[index].said;
   const bool expired = (heartbeat.active_errors & kWatchdogExpired) != 0;
-  if (!expired) seen.expired = kNever;
-  if (expired && seen.expired == kNever) seen.expired = stamp;
-  seen.errors = heartbeat.active_errors;
-  seen.state = heartbeat.axis_state;
-  seen.procedure = heartbeat.procedure;
+  if (!expired) said.expired = kNever;
+  if (expired && said.expired == kNever) said.expired = stamp;
+  said.errors = heartbeat.active_errors;
+  said.state = heartbeat.axis_state;
+  said.procedure = heartbeat.procedure;
   note_heard(index, stamp);
   note_obeys(index, heartbeat.axis_state == kClosedLoop && heartbeat.active_errors == 0);
   const DriveFault fault{DriveFaultKind::kOdrive, setup_.axes[index].node, heartbeat.active_errors};
@@ -283,10 +284,10 @@ void OdriveBase::send_order(std::size_t index, MotorOrder order, double speed_ra
   const std::uint8_t node = setup_.axes[index].node;
   // It disarms, and its wheel rolls out: nothing of an ODrive brakes without obeying.
   if (order == MotorOrder::kNetworkStop) return send(emergency_stop(node));
-  if (order == MotorOrder::kOff && seen_[index].state != kIdle) send(set_axis_state(node, AxisState::kIdle));
-  if (order == MotorOrder::kHold && seen_[index].state != kClosedLoop) {
+  if (order == MotorOrder::kOff && seen_[index].said.state != kIdle) send(set_axis_state(node, kIdle));
+  if (order == MotorOrder::kHold && seen_[index].said.state != kClosedLoop) {
     send(set_velocity_mode(node, true));
-    send(set_axis_state(node, AxisState::kClosedLoop));
+    send(set_axis_state(node, kClosedLoop));
   }
   send(set_velocity(node, static_cast<float>(speed_radps * setup_.axes[index].per_rad)));
 }

@@ -13,10 +13,8 @@
 
 namespace jaywalk::odrive {
 
-enum class AxisState : std::uint8_t { kUndefined = 0, kIdle = 1, kClosedLoop = 8 };
-/// As a heartbeat says it.
-inline constexpr std::uint8_t kIdle = static_cast<std::uint8_t>(AxisState::kIdle);
-inline constexpr std::uint8_t kClosedLoop = static_cast<std::uint8_t>(AxisState::kClosedLoop);
+/// States of an axis: closed loop obeys speeds, idle lets go.
+inline constexpr std::uint8_t kIdle = 1, kClosedLoop = 8;
 
 /// Bits of Heartbeat::active_errors that arming looks at; any other bit is an error too.
 inline constexpr std::uint32_t kWatchdogExpired = 0x01000000, kEstopRequested = 0x02000000;
@@ -25,8 +23,8 @@ inline constexpr std::uint32_t kWatchdogExpired = 0x01000000, kEstopRequested = 
 /// otherwise.
 inline constexpr std::uint32_t kWatchdogExpired05 = 0x00000800;
 
-/// `node` is 0 to 62. A state: closed loop obeys speeds, idle lets go.
-[[nodiscard]] CanFrame set_axis_state(std::uint8_t node, AxisState state) noexcept;
+/// `node` is 0 to 62; `state` kIdle or kClosedLoop.
+[[nodiscard]] CanFrame set_axis_state(std::uint8_t node, std::uint8_t state) noexcept;
 /// Velocity control; `ramped` limits its change by the axis' own setting.
 [[nodiscard]] CanFrame set_velocity_mode(std::uint8_t node, bool ramped) noexcept;
 /// Turns of the motor a second, forward positive. Every such frame feeds the watchdog.
@@ -36,7 +34,7 @@ inline constexpr std::uint32_t kWatchdogExpired05 = 0x00000800;
 
 struct Heartbeat {
   std::uint32_t active_errors = 0;
-  std::uint8_t axis_state = 0;  ///< AxisState where it is one of those
+  std::uint8_t axis_state = 0;  ///< kIdle, kClosedLoop or another
   std::uint8_t procedure = 0;   ///< how the last change of state went: ProcedureResult
 };
 
@@ -62,13 +60,8 @@ struct AxisReport {
   Time heard = kNever;    ///< of its heartbeat
   Time expired = kNever;  ///< of the first heartbeat with the watchdog's error; kNever while it has none
   std::uint32_t errors = 0;
-  std::uint8_t state = 0;      ///< AxisState where it is one of those
-  std::uint8_t procedure = 0;  ///< ProcedureResult
+  std::uint8_t state = 0, procedure = 0;  ///< as in Heartbeat
   double speed_radps = 0.0;
-};
-
-struct ProofLimits {
-  Duration watchdog_least{}, watchdog_most{};  ///< from the last command to the error
 };
 
 /// Whether an axis lets go by itself when nobody commands it: idle, velocity mode, no errors; then it holds speed zero
@@ -79,8 +72,9 @@ struct ProofLimits {
 /// set here and at each enabling, and not read back; a wheel that turns fails the proof.
 class WatchdogProof {
  public:
-  /// Of the axis `node`; the first frames are due at once.
-  void begin(std::uint8_t node, const ProofLimits& limits, Time now) noexcept;
+  /// Of the axis `node`, whose watchdog is to expire `least` to `most` after the last command; the first frames are due
+  /// at once.
+  void begin(std::uint8_t node, Duration least, Duration most, Time now) noexcept;
   [[nodiscard]] std::span<const CanFrame> step(Time now, const AxisReport& axis) noexcept;
   [[nodiscard]] ProofResult result() const noexcept { return result_; }
   /// "watchdog: expired 66 ms after the last command"; allocates.
@@ -104,10 +98,13 @@ class WatchdogProof {
   };
 
   /// It was heard since this stage began.
-  [[nodiscard]] bool was_heard(const AxisReport& axis) const noexcept { return axis.heard > since_; }
-  void clear(Time now, const AxisReport& axis) noexcept;
-  void close(Time now, const AxisReport& axis) noexcept;
-  void withhold(Time now, const AxisReport& axis) noexcept;
+  [[nodiscard]] bool was_heard() const noexcept { return axis_.heard > since_; }
+  /// It says that it is in `state` without errors; fed until then, and given up as `otherwise` after a time.
+  [[nodiscard]] bool reaches(std::uint8_t state, Time now, Verdict otherwise) noexcept;
+  void begin_clearing(Time now) noexcept;
+  void clear(Time now) noexcept;
+  void close(Time now) noexcept;
+  void withhold(Time now) noexcept;
   void enter(Stage stage, Time now) noexcept;
   /// Says zero now and then, as long as the watchdog is to be fed.
   void feed(Time now) noexcept;
@@ -115,13 +112,12 @@ class WatchdogProof {
   void add(const CanFrame& frame) noexcept { due_[due_count_++] = frame; }
 
   std::uint8_t node_ = 0;
-  ProofLimits limits_;
+  Duration least_{}, most_{};
+  AxisReport axis_;
   Stage stage_ = Stage::kDone;
   Time since_ = kNever, fed_ = kNever;
   ProofResult result_ = ProofResult::kFailed;
   Verdict verdict_ = Verdict::kNone;
-  std::uint32_t errors_ = 0;
-  std::uint8_t procedure_ = 0;
   Duration after_{};  ///< from the last command to what was seen then
   std::array<CanFrame, 4> due_;
   std::size_t due_count_ = 0;
@@ -137,10 +133,7 @@ struct BaseSetup {
   Duration watchdog_limit = std::chrono::milliseconds(100);
   Duration watchdog_least = std::chrono::milliseconds(40);  ///< it must outlast two commands
   Duration silence_limit = std::chrono::milliseconds(150);  ///< without a heartbeat
-  /// An axis is set to say it no more often (heartbeat_msg_rate_ms); more are a second axis with its number.
-  Duration heartbeat_least = std::chrono::milliseconds(10);
-  Duration settling = std::chrono::milliseconds(300);
-  StopLimits stop;              ///< braking and tolerance must be given
+  StopLimits stop;                                          ///< braking and tolerance must be given
   bool allow_unproved = false;  ///< arms although an axis did not show that it stops by itself
 };
 
@@ -156,10 +149,7 @@ class OdriveBase final : public MotorPair {
 
  private:
   struct Seen {
-    std::uint32_t errors = 0;
-    std::uint8_t state = 0;  ///< AxisState where it is one of those
-    std::uint8_t procedure = 0;
-    Time expired = kNever;  ///< its watchdog, by its heartbeats
+    AxisReport said;
     FrameRate heartbeats = {};
     float position_turns = 0.0F;
   };
@@ -170,7 +160,7 @@ class OdriveBase final : public MotorPair {
   void send_order(std::size_t index, MotorOrder order, double speed_radps) noexcept override;
   void send_reset(std::size_t index) noexcept override;
   void begin_proof(std::size_t index) noexcept override {
-    proofs_[index].begin(setup_.axes[index].node, {setup_.watchdog_least, setup_.watchdog_limit}, clock().now());
+    proofs_[index].begin(setup_.axes[index].node, setup_.watchdog_least, setup_.watchdog_limit, clock().now());
   }
   ProofResult continue_proof(std::size_t index) noexcept override;
   [[nodiscard]] std::string proof_line(std::size_t index) const override { return who(index) + proofs_[index].line(); }

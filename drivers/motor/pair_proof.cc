@@ -1,7 +1,6 @@
 // MotorPair's arming proof, at start-up and after every return.
-#include <cstdio>
-
 #include "drivers/motor/motor_pair.h"
+#include "hal/shown_text.h"
 
 namespace jaywalk {
 namespace {
@@ -10,14 +9,9 @@ namespace {
 constexpr Duration kListening = std::chrono::milliseconds(300);
 
 std::string in_words(const CanFrame& frame) {
-  std::array<char, 16> text{};
-  std::snprintf(text.data(), text.size(), frame.extended ? "%08Xh" : "%03Xh", static_cast<unsigned>(frame.id));
-  std::string words = text.data();
-  if (frame.remote) words += " (a request)";
-  for (const std::uint8_t byte : frame.payload()) {
-    std::snprintf(text.data(), text.size(), " %02X", static_cast<unsigned>(byte));
-    if (!frame.remote) words += text.data();
-  }
+  std::string words = formatted(frame.extended ? "%08Xh" : "%03Xh", static_cast<unsigned>(frame.id));
+  if (frame.remote) return words + " (a request)";
+  for (const std::uint8_t byte : frame.payload()) words += formatted(" %02X", static_cast<unsigned>(byte));
   return words;
 }
 

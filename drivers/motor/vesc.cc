@@ -64,16 +64,10 @@ std::optional<Message> decode_fault(std::uint8_t to, wire::ByteReader reader) no
 constexpr Duration kAnswerLimit = std::chrono::milliseconds(500);
 constexpr const char* kMinimumErpm =
     "; its minimum ERPM cannot be read: set it to 0 (VESC Tool, Motor Settings, PID Controllers)";
-constexpr double kMostBrake_a = 200.0;  ///< more than any VESC has
+constexpr double kMostBrake_a = 200.0, kMostErpm = 1e6;  ///< more than any VESC and motor has
 /// Electrical turns told, of which a motor that follows shows a sixth: 2 cm of a hub motor of 15 pole pairs, less than
 /// by which wheels disobey (FeltMotion).
 constexpr double kStill_turns = 0.5;
-
-std::int32_t to_erpm(double speed_radps, double electrical_turns_per_rad) noexcept {
-  constexpr double kMost = 1e6;  // more than any motor has
-  const double erpm = std::clamp(speed_radps * electrical_turns_per_rad * 60.0, -kMost, kMost);
-  return static_cast<std::int32_t>(erpm < 0.0 ? erpm - 0.5 : erpm + 0.5);
-}
 
 }  // namespace
 
@@ -102,14 +96,7 @@ CanFrame ask_fault(std::uint8_t controller, std::uint8_t own) noexcept {
   return frame;
 }
 
-std::uint16_t crc16(std::span<const std::uint8_t> bytes) noexcept {
-  unsigned crc = 0;
-  for (const std::uint8_t byte : bytes) {
-    crc ^= static_cast<unsigned>(byte) << 8U;
-    for (int bit = 0; bit < 8; ++bit) crc = ((crc << 1U) ^ ((crc & 0x8000U) != 0 ? 0x1021U : 0U)) & 0xFFFFU;
-  }
-  return static_cast<std::uint16_t>(crc);
-}
+std::uint16_t crc16(wire::Bytes bytes) noexcept { return wire::crc_of<std::uint16_t>(bytes, 0x1021); }
 
 // The firmware's numbers (CAN_PACKET_ID in its datatypes.h): 0 to 4 and 10 to 13 set, 5 to 8 carry messages, 17 pings,
 // 19 and 21 to 26 measure and limit, 28 to 31 poll, limit and shut down. Everything else below 32 it sends itself.
@@ -158,12 +145,9 @@ std::optional<StopSettings> SettingsReader::finish(const PiecesEnd& end) const n
 }
 
 VescBase::VescBase(CanBus& bus, Clock& clock, const BaseSetup& setup)
-    : MotorPair(bus, clock, {setup.silence_limit, setup.settling, kAnswerLimit, setup.stop, setup.allow_unproved}),
-      setup_(setup) {
-  require_axes(setup.axes, {"VESC", 0, 253, setup.own});
+    : MotorPair(bus, clock, {setup.silence_limit, kAnswerLimit, setup.stop, setup.allow_unproved}), setup_(setup) {
+  require_axes(setup.axes, "VESC", 0, 253, setup.own);
 }
-
-std::string VescBase::who(std::size_t index) const { return "VESC " + std::to_string(setup_.axes[index].node) + ": "; }
 
 StartupError VescBase::absence(std::size_t index) const {
   return {who(index) + (axis(index).heard == kNever ? "no status message 1" : "no status message 5"),
@@ -194,9 +178,7 @@ std::string VescBase::proof_line(std::size_t index) const {
   const Seen& seen = seen_[index];
   if (!seen.settings)
     return who(index) + "timeout: " + (seen.answered ? "answer damaged" : "no answer") + ": NOT PROVED";
-  const auto in_ms = [](Duration d) {
-    return static_cast<int>(std::chrono::duration_cast<std::chrono::milliseconds>(d).count());
-  };
+  const auto in_ms = [](Duration d) { return static_cast<int>(d / std::chrono::milliseconds(1)); };
   const std::string text =
       formatted("timeout: wanted %d to %d ms, reads %u ms, then brakes with %.1f A%s", in_ms(setup_.timeout_least),
                 in_ms(setup_.timeout_most), static_cast<unsigned>(seen.settings->timeout_ms),
@@ -283,7 +265,7 @@ void VescBase::send_order(std::size_t index, MotorOrder order, double speed_radp
   } else if (order == MotorOrder::kNetworkStop && brake_a > 0.0) {
     send(set_brake_current(axis_setup.node, static_cast<std::int32_t>(1000.0 * brake_a)));
   } else {
-    const std::int32_t erpm = to_erpm(speed_radps, axis_setup.per_rad);
+    const std::int32_t erpm = rounded_within(speed_radps * axis_setup.per_rad * 60.0, kMostErpm);
     hold_to_speed(index, order == MotorOrder::kRun, erpm);
     send(set_erpm(axis_setup.node, erpm));
   }

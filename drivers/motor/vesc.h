@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <span>
 #include <string>
 #include <variant>
 
@@ -25,7 +24,7 @@ namespace jaywalk::vesc {
 /// Asks for the fault code alone; the answer fits into one frame to `own`.
 [[nodiscard]] CanFrame ask_fault(std::uint8_t controller, std::uint8_t own) noexcept;
 /// CRC-16 with polynomial 1021h from 0, highest bit first, over long messages.
-[[nodiscard]] std::uint16_t crc16(std::span<const std::uint8_t> bytes) noexcept;
+[[nodiscard]] std::uint16_t crc16(wire::Bytes bytes) noexcept;
 
 struct Status {  ///< message 9
   std::int32_t erpm = 0;
@@ -93,9 +92,8 @@ struct BaseSetup {
   /// at its timeout every 10 ms.
   Duration timeout_least = std::chrono::milliseconds(40), timeout_most = std::chrono::milliseconds(90);
   Duration silence_limit = std::chrono::milliseconds(150);  ///< without status message 9
-  Duration settling = std::chrono::milliseconds(300);
-  StopLimits stop;              ///< braking and tolerance must be given
-  bool allow_unproved = false;  ///< arms although a controller is not set to stop by itself
+  StopLimits stop;                                          ///< braking and tolerance must be given
+  bool allow_unproved = false;                              ///< arms although a controller is not set to stop by itself
 };
 
 /// Two VESCs that take electrical speeds.
@@ -137,15 +135,15 @@ class VescBase final : public MotorPair {
   void ask_for_fault(std::size_t index) noexcept;
   /// Its motor is told to turn: one that does not is below its minimum ERPM, or blocked.
   void hold_to_speed(std::size_t index, bool runs, std::int32_t erpm) noexcept;
-  /// A VESC forgets a fault by itself after a time.
-  void send_reset(std::size_t) noexcept override {}
   void begin_proof(std::size_t index) noexcept override;
   ProofResult continue_proof(std::size_t index) noexcept override;
   [[nodiscard]] bool is_proved_by(const StopSettings& settings) const noexcept;
   [[nodiscard]] std::string proof_line(std::size_t index) const override;
   [[nodiscard]] std::string proof_remedy(std::size_t index) const override;
   [[nodiscard]] StartupError absence(std::size_t index) const override;
-  [[nodiscard]] std::string who(std::size_t index) const;
+  [[nodiscard]] std::string who(std::size_t index) const {
+    return "VESC " + std::to_string(setup_.axes[index].node) + ": ";
+  }
 
   BaseSetup setup_;
   std::array<Seen, 2> seen_;

@@ -10,7 +10,8 @@
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
-#include <cstring>
+#include <span>
+#include <string_view>
 
 #include "drivers/wire/thread_without_signals.h"
 
@@ -21,15 +22,12 @@ constexpr Duration kBetweenTries = std::chrono::milliseconds(500);
 constexpr double kDeadZone = 0.1;  ///< worn sticks come to rest up to here
 constexpr int kMostReads = 8;
 
-/// <linux/input.h>'s EVIOCGKEY (18h) and EVIOCGABS (40h and the axis), without their mixed signs.
+/// <linux/input.h>'s EVIOCGKEY (18h), EVIOCGBIT (20h and the type of event) and EVIOCGABS (40h and the axis), without
+/// their mixed signs.
 constexpr unsigned long question(unsigned number, std::size_t answer_bytes) noexcept {
   return _IOC(_IOC_READ, 0x45U, number, static_cast<unsigned>(answer_bytes));  // 45h: 'E'
 }
 
-/// <linux/input.h>'s EVIOCGBIT: 20h and the type of event.
-constexpr unsigned long which_codes(unsigned type, std::size_t bytes) noexcept {
-  return _IOC(_IOC_READ, 0x45U, 0x20U + type, static_cast<unsigned>(bytes));  // 45h: 'E'
-}
 /// <linux/joystick.h>'s JSIOCGBUTTONS, without its mixed signs.
 constexpr unsigned long kHowManyButtons = _IOC(_IOC_READ, 0x6AU, 0x12U, 1U);  // 6Ah: 'j'
 
@@ -38,20 +36,15 @@ bool has(const std::array<std::uint8_t, N>& bits, std::uint16_t code) noexcept {
   return code / 8U < N && (static_cast<unsigned>(bits[code / 8U]) >> (code % 8U) & 1U) != 0;
 }
 
-bool has_stick(const DeviceKeys& keys, const JoystickSetup& setup) noexcept {
-  return has(keys.axes, setup.forward) && has(keys.axes, setup.left);
+/// Key of the first button or stick that a setup needs and the device lacks; empty where it has them all.
+std::string_view lacking_key(const DeviceKeys& keys, const JoystickSetup& setup) noexcept {
+  if (!keys.answers || !has(keys.buttons, setup.stop)) return "stop_button";
+  if (setup.needs_dead_man && !has(keys.buttons, setup.dead_man)) return "dead_man_button";
+  const bool has_stick = has(keys.axes, setup.forward) && has(keys.axes, setup.left);
+  return setup.steers && !has_stick ? "steering" : "";
 }
 
 }  // namespace
-
-std::optional<InputEvent> EventStream::next() noexcept {
-  input_event raw;
-  const wire::Bytes waiting = queue_.waiting();
-  if (waiting.size() < sizeof raw) return std::nullopt;
-  std::memcpy(&raw, waiting.data(), sizeof raw);
-  queue_.drop(sizeof raw);
-  return InputEvent{raw.type, raw.code, raw.value};
-}
 
 double Joystick::Axis::share() const noexcept {
   const double middle = 0.5 * (static_cast<double>(least) + most);
@@ -109,9 +102,7 @@ void Joystick::count_stop() noexcept {
 }
 
 JoystickState Joystick::state() const noexcept {
-  JoystickState gone;
-  gone.stops = stops_;
-  if (device_.get() < 0) return gone;
+  if (device_.get() < 0) return {.stops = stops_};
   const bool steers = is_held() && seen_centred_;
   return {.connected = true,
           .dead_man = is_held(),
@@ -125,12 +116,11 @@ JoystickState Joystick::state() const noexcept {
 
 void Joystick::open() noexcept {
   device_ = wire::FileDescriptor(::open(setup_.path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
-  events_.forget();
   dead_man_ = stop_ = reset_ = Button::kUnknown;
   seen_released_ = false;
   forward_ = left_ = Axis();
   if (device_.get() < 0) return;
-  if (setup_.asks_device && !has_all(keys_of(device_.get()), setup_)) return close();
+  if (setup_.asks_device && !lacking_key(keys_of(device_.get()), setup_).empty()) return close();
   on_bluetooth_ = ask_bus_(device_.get()) == BUS_BLUETOOTH;
   ask_present_state();
 }
@@ -140,7 +130,7 @@ void Joystick::ask_present_state() noexcept {
   std::array<std::uint8_t, KEY_MAX / 8 + 1> keys{};
   if (::ioctl(device_.get(), question(0x18, keys.size()), keys.data()) >= 0) {
     for (const std::uint16_t code : {setup_.dead_man, setup_.stop, setup_.reset})
-      if (code <= KEY_MAX) take_button(code, ((static_cast<unsigned>(keys[code / 8U]) >> (code % 8U)) & 1U) != 0);
+      if (code <= KEY_MAX) take_button(code, has(keys, code));
   }
   const auto ask_axis = [this](std::uint16_t code, Axis& axis) {
     input_absinfo told{};
@@ -151,19 +141,21 @@ void Joystick::ask_present_state() noexcept {
   ask_axis(setup_.left, left_);
 }
 
+// The kernel hands out whole events only.
 void Joystick::read() noexcept {
+  std::array<input_event, 64> events;
   for (int k = 0; k < kMostReads && device_.get() >= 0; ++k) {
-    const ssize_t count = ::read(device_.get(), room_.data(), room_.size());
+    const ssize_t count = ::read(device_.get(), events.data(), sizeof events);
     if (count <= 0) {
       if (count == 0 || (errno != EAGAIN && errno != EINTR)) close();
       return;
     }
-    events_.append(wire::Bytes(room_).first(static_cast<std::size_t>(count)));
-    while (const auto event = events_.next()) take(*event);
+    const std::size_t whole = static_cast<std::size_t>(count) / sizeof(input_event);
+    for (const input_event& event : std::span(events).first(whole)) take(event);
   }
 }
 
-void Joystick::take(const InputEvent& event) noexcept {
+void Joystick::take(const input_event& event) noexcept {
   if (event.type == EV_SYN && event.code == SYN_DROPPED) return close();  // events are lost: ask again how things stand
   heard_ = heard_ || event.type == EV_KEY || event.type == EV_ABS;
   if (event.type == EV_KEY) take_button(event.code, event.value != 0);
@@ -186,27 +178,19 @@ DeviceKeys keys_of(int device) noexcept {
   DeviceKeys keys;
   std::uint8_t buttons = 0;
   keys.old_joystick = ::ioctl(device, kHowManyButtons, &buttons) >= 0;
-  keys.answers = ::ioctl(device, which_codes(EV_KEY, keys.buttons.size()), keys.buttons.data()) >= 0;
-  static_cast<void>(::ioctl(device, which_codes(EV_ABS, keys.axes.size()), keys.axes.data()));
+  keys.answers = ::ioctl(device, question(0x20U + EV_KEY, keys.buttons.size()), keys.buttons.data()) >= 0;
+  static_cast<void>(::ioctl(device, question(0x20U + EV_ABS, keys.axes.size()), keys.axes.data()));
   return keys;
 }
 
-bool has_all(const DeviceKeys& keys, const JoystickSetup& setup) noexcept {
-  const bool stops = keys.answers && has(keys.buttons, setup.stop);
-  return stops && (!setup.needs_dead_man || has(keys.buttons, setup.dead_man)) &&
-         (!setup.steers || has_stick(keys, setup));
-}
-
 std::string lacking(const DeviceKeys& keys, const JoystickSetup& setup) {
-  if (has_all(keys, setup)) return "";
+  const std::string_view key = lacking_key(keys, setup);
+  if (key.empty()) return "";
   if (keys.old_joystick) return "speaks the older joystick interface, whose buttons have no numbers of their own";
   if (!keys.answers) return "is no input device: it does not tell which buttons it has";
-  const auto button = [](const char* key, std::uint16_t code) {
-    return "has no button " + std::to_string(code) + ", which [panel] " + key + " names";
-  };
-  if (!has(keys.buttons, setup.stop)) return button("stop_button", setup.stop);
-  if (setup.needs_dead_man && !has(keys.buttons, setup.dead_man)) return button("dead_man_button", setup.dead_man);
-  return "has no stick, which [panel] steering needs";
+  if (key == "steering") return "has no stick, which [panel] steering needs";
+  const std::uint16_t code = key == "stop_button" ? setup.stop : setup.dead_man;
+  return "has no button " + std::to_string(code) + ", which [panel] " + std::string(key) + " names";
 }
 
 JoystickWatch::~JoystickWatch() {
@@ -231,21 +215,18 @@ void JoystickWatch::step() noexcept {
 JoystickState JoystickWatch::latest() noexcept {
   const Report& report = reports_.latest();
   if (age(report.looked, clock_.now()) <= kLongestAge) return report.state;
-  JoystickState gone;
-  gone.stops = report.state.stops;
-  return gone;
+  return {.stops = report.state.stops};
 }
 
 OperatorInput JoystickPanel::latest() noexcept {
   OperatorInput input = goals_.latest();
-  const std::uint32_t stops_before = state_.stops;
-  state_ = joystick_.latest();
-  const bool stopped_meanwhile = state_.stops != stops_before;
-  input.emergency_stop = input.emergency_stop || state_.stop || stopped_meanwhile;
-  input.reset = input.reset || state_.reset;
-  if (needs_dead_man_ && !state_.dead_man) input.has_goal = false;
+  const JoystickState joystick = joystick_.latest();
+  const bool stopped_meanwhile = joystick.stops != std::exchange(stops_, joystick.stops);
+  input.emergency_stop = input.emergency_stop || joystick.stop || stopped_meanwhile;
+  input.reset = input.reset || joystick.reset;
+  if (needs_dead_man_ && !joystick.dead_man) input.has_goal = false;
   if (!stick_drives_) return input;
-  input.stick = {state_.forward, state_.left};
+  input.stick = {joystick.forward, joystick.left};
   input.steers = !input.stick.is_centred() || !input.has_goal;
   if (input.steers) input.has_goal = false;
   return input;

@@ -8,33 +8,14 @@
 #include <thread>
 #include <utility>
 
-#include "drivers/wire/byte_reader.h"
 #include "drivers/wire/file_descriptor.h"
 #include "hal/hal.h"
 #include "hal/mailbox.h"
 #include "hal/types/time.h"
 
+struct input_event;  // <linux/input.h>
+
 namespace jaywalk::panel {
-
-// Linux's input events as they are read from /dev/input/event*: struct input_event of <linux/input.h>.
-
-struct InputEvent {
-  std::uint16_t type = 0;  ///< EV_KEY, EV_ABS, EV_SYN and others
-  std::uint16_t code = 0;  ///< which button or axis
-  std::int32_t value = 0;  ///< of a button 0 released, 1 pressed, 2 held; of an axis its position
-  bool operator==(const InputEvent&) const = default;
-};
-
-/// Cuts what was read into events; the kernel's time in each is passed over.
-class EventStream {
- public:
-  void append(wire::Bytes bytes) noexcept { queue_.append(bytes); }
-  [[nodiscard]] std::optional<InputEvent> next() noexcept;
-  void forget() noexcept { queue_.clear(); }
-
- private:
-  wire::ByteQueue<4096> queue_;
-};
 
 /// Which of a device's buttons and axes mean what, by the numbers of <linux/input-event-codes.h>.
 struct JoystickSetup {
@@ -94,7 +75,7 @@ class Joystick {
   void close() noexcept { device_ = wire::FileDescriptor(); }
   void ask_present_state() noexcept;
   void read() noexcept;
-  void take(const InputEvent& event) noexcept;
+  void take(const input_event& event) noexcept;
   void take_button(std::uint16_t code, bool pressed) noexcept;
   void count_stop() noexcept;
   void expire_dead_man(Time now) noexcept;
@@ -107,8 +88,6 @@ class Joystick {
   bool on_bluetooth_ = false;
   wire::FileDescriptor device_;
   Time tried_ = kNever;
-  EventStream events_;
-  std::array<std::uint8_t, 1536> room_{};  // 64 events
   Button dead_man_ = Button::kUnknown, stop_ = Button::kUnknown, reset_ = Button::kUnknown;
   bool seen_released_ = false;
   bool seen_centred_ = false;  ///< since the dead man is held
@@ -132,8 +111,6 @@ struct DeviceKeys {
 
 /// Which of the buttons and axes that a setup needs the device lacks, in words; empty where it has them all.
 [[nodiscard]] std::string lacking(const DeviceKeys& keys, const JoystickSetup& setup);
-/// The same as a matter of fact; takes no memory.
-[[nodiscard]] bool has_all(const DeviceKeys& keys, const JoystickSetup& setup) noexcept;
 
 /// A joystick in a thread of its own, for opening a device and asking it how it stands may block. The loop's thread
 /// only reads what was published last, and takes what is older than kLongestAge for a joystick that is gone.
@@ -178,13 +155,11 @@ class JoystickPanel final : public OperatorPanel {
       : goals_(goals), joystick_(joystick), needs_dead_man_(needs_dead_man), stick_drives_(stick_drives) {}
 
   [[nodiscard]] OperatorInput latest() noexcept override;
-  /// As of the last call of latest().
-  [[nodiscard]] const JoystickState& joystick() const noexcept { return state_; }
 
  private:
   OperatorPanel& goals_;
   JoystickWatch& joystick_;
-  JoystickState state_;
+  std::uint32_t stops_ = 0;  ///< of the joystick, at the last call
   bool needs_dead_man_, stick_drives_;
 };
 

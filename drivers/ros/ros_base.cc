@@ -13,14 +13,14 @@ bool is_sound(const BaseMessage& message, Time now) noexcept {
 }
 
 constexpr Duration kAnswerLimit = std::chrono::seconds(2);  // jaywalk_dds finds new rings, and nodes each other
-constexpr Duration kSilence = std::chrono::milliseconds(150), kSettling = std::chrono::milliseconds(300);
+constexpr Duration kSilence = std::chrono::milliseconds(150);
 
 }  // namespace
 
-SendResult RosBus::send(const CanFrame& frame) noexcept {
+bool RosBus::send(const CanFrame& frame) noexcept {
   const BaseMessage message{clock_.now().time_since_epoch().count(), frame.id, frame.size, frame.bytes};
   orders_->write(std::as_bytes(std::span(&message, 1)));
-  return SendResult::kQueued;
+  return true;
 }
 
 bool RosBus::receive(ReceivedFrame& received) noexcept {
@@ -42,7 +42,7 @@ CanHealth RosBus::health() const noexcept { return {.frames_lost = states_->lost
 
 RosBase::RosBase(CanBus& bus, Clock& clock, const BaseSetup& setup)
     : MotorPair(bus, clock,
-                {std::max({kSilence, 3 * setup.tick, duration_from_seconds(setup.times.oldest_report_s())}), kSettling,
+                {std::max({kSilence, 3 * setup.tick, duration_from_seconds(setup.times.oldest_report_s())}),
                  kAnswerLimit, setup.stop, setup.allow_unproved, true}),
       setup_(setup),
       shown_{ShownReports(setup.times, setup.tick), ShownReports(setup.times, setup.tick)} {}

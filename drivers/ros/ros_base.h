@@ -23,7 +23,7 @@ class RosBus final : public CanBus {
         orders_(SharedRing::make(rings.orders, kBaseRing)),
         clock_(clock) {}
 
-  [[nodiscard]] SendResult send(const CanFrame& frame) noexcept override;
+  [[nodiscard]] bool send(const CanFrame& frame) noexcept override;
   [[nodiscard]] bool receive(ReceivedFrame& received) noexcept override;
   [[nodiscard]] CanHealth health() const noexcept override;
   /// Has jaywalk_dds command zero at once.
@@ -48,10 +48,9 @@ struct BaseSetup {
 /// A base that obeys cmd_vel and publishes its odometry on ROS 2, as two motors behind jaywalk_dds.
 ///
 /// Arming proof, before the first command and after every return: some node listens to the commands; odometry comes as
-/// often as the robot file states; no other node commands the base; and commanded zero it stands. That the base
-/// stops by itself when no commands come (its cmd_vel timeout) would show only while it drives: never proved, so
-/// that arming needs allow_unproved. jaywalk_dds commands zero 100 ms after the loop's last command; the base's timeout
-/// is for the death of both. A base has no second way to stop but silence.
+/// often as the robot file states; no other node commands the base; and commanded zero it stands. The base's own
+/// timeout (cmd_vel timeout) would show only while it drives: never proved, so that arming needs allow_unproved.
+/// jaywalk_dds commands zero 100 ms after the loop's last command; the base's timeout is for the death of both.
 class RosBase final : public MotorPair {
  public:
   /// `bus` and `clock` outlive it. Throws StartupError where the setup cannot be.

@@ -71,12 +71,9 @@ void RingLink::open() noexcept {
 
 wire::Bytes RingLink::read(std::span<std::uint8_t>) noexcept {
   if (state_ != State::kOpen) return {};
-  switch (ring_->read(std::as_writable_bytes(std::span(message_)))) {
-    case SharedRing::Took::kNothing: return {};
-    case SharedRing::Took::kTorn: return wire::Bytes(message_).first(1);
-    case SharedRing::Took::kMessage: break;
-  }
-  return message_;
+  const SharedRing::Took took = ring_->read(std::as_writable_bytes(std::span(message_)));
+  if (took == SharedRing::Took::kNothing) return {};
+  return wire::Bytes(message_).first(took == SharedRing::Took::kTorn ? 1 : message_.size());
 }
 
 void RingLink::wait(Duration most) noexcept {

@@ -41,34 +41,20 @@ struct SharedRing::Header {
   std::atomic<std::uint32_t> bell;  ///< a futex
 };
 
-struct SharedRing::Mapping {
-  Mapping(std::filesystem::path where, const struct stat& file) noexcept : path(std::move(where)), is(file) {}
-  ~Mapping() {
-    if (memory != MAP_FAILED) ::munmap(memory, bytes);
-    if (is_maker && is_current()) ::unlink(path.c_str());
-  }
-  Mapping(const Mapping&) = delete;
-  Mapping& operator=(const Mapping&) = delete;
+std::size_t SharedRing::bytes_of(const Shape& shape) noexcept {
+  return sizeof(Header) + shape.slots * (kWord + shape.message_bytes);
+}
 
-  static std::size_t bytes_of(const Shape& shape) noexcept {
-    return sizeof(Header) + shape.slots * (kWord + shape.message_bytes);
-  }
-  [[nodiscard]] bool map(int file, const Shape& shape) noexcept {
-    bytes = bytes_of(shape);
-    memory = ::mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_POPULATE, file, 0);
-    return memory != MAP_FAILED;
-  }
-  [[nodiscard]] bool is_current() const noexcept {
-    struct stat there {};
-    return ::lstat(path.c_str(), &there) == 0 && there.st_ino == is.st_ino && there.st_dev == is.st_dev;
-  }
-
-  std::filesystem::path path;
-  struct stat is;
-  void* memory = MAP_FAILED;
-  std::size_t bytes = 0;
-  bool is_maker = false;
-};
+std::unique_ptr<SharedRing> SharedRing::map(const std::filesystem::path& path, int file, const Shape& shape,
+                                            bool is_maker) {
+  const auto is = own_file(file);
+  if (!is || is->st_size != static_cast<off_t>(bytes_of(shape))) return nullptr;
+  std::unique_ptr<SharedRing> ring(new SharedRing(path, *is, shape, is_maker));
+  void* const memory = ::mmap(nullptr, bytes_of(shape), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_POPULATE, file, 0);
+  if (memory == MAP_FAILED) return nullptr;
+  ring->header_ = static_cast<Header*>(memory);
+  return ring;
+}
 
 std::unique_ptr<SharedRing> SharedRing::make(const std::filesystem::path& path, const Shape& shape) {
   const auto refuse = [&](const std::string& cause) {
@@ -85,45 +71,42 @@ std::unique_ptr<SharedRing> SharedRing::make(const std::filesystem::path& path, 
   const wire::FileDescriptor file(
       ::open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, S_IRUSR | S_IWUSR));
   if (file.get() < 0) refuse(std::string("cannot be made: ") + std::strerror(errno));
-  if (const int failure = ::posix_fallocate(file.get(), 0, static_cast<off_t>(Mapping::bytes_of(shape))); failure != 0)
+  if (const int failure = ::posix_fallocate(file.get(), 0, static_cast<off_t>(bytes_of(shape))); failure != 0)
     refuse(std::string("has no room: ") + std::strerror(failure));
-  const auto is = own_file(file.get());
-  auto mapping = std::make_unique<Mapping>(path, is.value_or(std::remove_cv_t<struct stat>{}));
-  mapping->is_maker = true;
-  if (!is || !mapping->map(file.get(), shape)) refuse(std::string("cannot be mapped: ") + std::strerror(errno));
-  auto& header = *static_cast<Header*>(mapping->memory);
-  header.message_bytes = shape.message_bytes;
-  header.slots = shape.slots;
-  std::atomic_ref(header.magic).store(kMagic, std::memory_order_release);
-  return std::unique_ptr<SharedRing>(new SharedRing(std::move(mapping), shape));
+  auto ring = map(path, file.get(), shape, true);
+  if (!ring) refuse(std::string("cannot be mapped: ") + std::strerror(errno));
+  ring->header_->message_bytes = shape.message_bytes;
+  ring->header_->slots = shape.slots;
+  std::atomic_ref(ring->header_->magic).store(kMagic, std::memory_order_release);
+  return ring;
 }
 
 std::unique_ptr<SharedRing> SharedRing::find(const std::filesystem::path& path, const Shape& shape) {
   const wire::FileDescriptor file(::open(path.c_str(), O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
-  const auto is = file.get() < 0 ? std::nullopt : own_file(file.get());
-  if (!is || is->st_size != static_cast<off_t>(Mapping::bytes_of(shape))) return nullptr;
-  auto mapping = std::make_unique<Mapping>(path, *is);
-  if (!mapping->map(file.get(), shape)) return nullptr;
-  auto& header = *static_cast<Header*>(mapping->memory);
-  if (load(header.magic, std::memory_order_acquire) != kMagic || load(header.message_bytes) != shape.message_bytes ||
-      load(header.slots) != shape.slots)
-    return nullptr;
-  return std::unique_ptr<SharedRing>(new SharedRing(std::move(mapping), shape));
+  auto ring = map(path, file.get(), shape, false);
+  const bool is_sound = ring && load(ring->header_->magic, std::memory_order_acquire) == kMagic &&
+                        load(ring->header_->message_bytes) == shape.message_bytes &&
+                        load(ring->header_->slots) == shape.slots;
+  if (!is_sound) return nullptr;
+  ring->written_ = ring->header_->written.load();
+  ring->next_ = ring->written_ + 1;
+  return ring;
 }
 
-SharedRing::SharedRing(std::unique_ptr<Mapping> mapping, const Shape& shape) noexcept
-    : mapping_(std::move(mapping)), shape_(shape), written_(header().written.load()), next_(written_ + 1) {}
-
-SharedRing::~SharedRing() = default;
-
-SharedRing::Header& SharedRing::header() const noexcept { return *static_cast<Header*>(mapping_->memory); }
+SharedRing::~SharedRing() {
+  if (header_ != nullptr) ::munmap(header_, bytes_of(shape_));
+  if (is_maker_ && is_current()) ::unlink(path_.c_str());
+}
 
 std::uint64_t* SharedRing::slot_of(std::uint64_t number) const noexcept {
-  auto* const slots = static_cast<std::byte*>(mapping_->memory) + sizeof(Header);
+  auto* const slots = reinterpret_cast<std::byte*>(header_) + sizeof(Header);
   return reinterpret_cast<std::uint64_t*>(slots + number % shape_.slots * (kWord + shape_.message_bytes));
 }
 
-bool SharedRing::is_current() const noexcept { return mapping_->is_current(); }
+bool SharedRing::is_current() const noexcept {
+  struct stat there {};
+  return ::lstat(path_.c_str(), &there) == 0 && there.st_ino == is_.st_ino && there.st_dev == is_.st_dev;
+}
 
 void SharedRing::write(std::span<const std::byte> message) noexcept {
   std::uint64_t* const slot = slot_of(++written_);
@@ -134,12 +117,12 @@ void SharedRing::write(std::span<const std::byte> message) noexcept {
     std::atomic_ref(slot[1 + k]).store(word, std::memory_order_release);
   }
   std::atomic_ref(slot[0]).store(written_, std::memory_order_release);
-  header().written.store(written_, std::memory_order_release);
+  header_->written.store(written_, std::memory_order_release);
   ring_bell();
 }
 
 SharedRing::Took SharedRing::read(std::span<std::byte> message) noexcept {
-  const std::uint64_t newest = header().written.load(std::memory_order_acquire);
+  const std::uint64_t newest = header_->written.load(std::memory_order_acquire);
   if (newest == next_ - 1) return Took::kNothing;
   if (const std::uint64_t behind = newest - next_; behind >= shape_.slots) {  // overwritten, or set back
     lost_ += newest > next_ ? behind : 0;
@@ -156,25 +139,25 @@ SharedRing::Took SharedRing::read(std::span<std::byte> message) noexcept {
   return is_whole ? Took::kMessage : Took::kTorn;
 }
 
-void SharedRing::skip() noexcept { next_ = header().written.load(std::memory_order_acquire) + 1; }
+void SharedRing::skip() noexcept { next_ = header_->written.load(std::memory_order_acquire) + 1; }
 
 void SharedRing::wait(Duration most) const noexcept {
-  const std::uint32_t heard = header().bell.load(std::memory_order_acquire);
-  if (header().written.load(std::memory_order_acquire) != next_ - 1) return;
+  const std::uint32_t heard = header_->bell.load(std::memory_order_acquire);
+  if (header_->written.load(std::memory_order_acquire) != next_ - 1) return;
   const timespec span{.tv_sec = most / std::chrono::seconds(1), .tv_nsec = (most % std::chrono::seconds(1)).count()};
-  ::syscall(SYS_futex, &header().bell, FUTEX_WAIT, heard, &span, nullptr, 0);
+  ::syscall(SYS_futex, &header_->bell, FUTEX_WAIT, heard, &span, nullptr, 0);
 }
 
 void SharedRing::ring_bell() noexcept {
-  header().bell.fetch_add(1, std::memory_order_release);
-  ::syscall(SYS_futex, &header().bell, FUTEX_WAKE, INT32_MAX, nullptr, nullptr, 0);
+  header_->bell.fetch_add(1, std::memory_order_release);
+  ::syscall(SYS_futex, &header_->bell, FUTEX_WAKE, INT32_MAX, nullptr, nullptr, 0);
 }
 
 void SharedRing::raise_alarm() noexcept {
-  header().alarms.fetch_add(1, std::memory_order_release);
+  header_->alarms.fetch_add(1, std::memory_order_release);
   ring_bell();
 }
 
-std::uint64_t SharedRing::alarms() const noexcept { return header().alarms.load(std::memory_order_acquire); }
+std::uint64_t SharedRing::alarms() const noexcept { return header_->alarms.load(std::memory_order_acquire); }
 
 }  // namespace jaywalk::ros

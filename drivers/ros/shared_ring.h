@@ -1,5 +1,7 @@
 #pragma once
 // Shared memory between the robot's program and jaywalk_dds, and what is said there.
+#include <sys/stat.h>
+
 #include <array>
 #include <bit>
 #include <cmath>
@@ -8,6 +10,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <utility>
 
 #include "drivers/can/can_bus.h"
 #include "hal/types/laser_scan.h"
@@ -42,8 +45,7 @@ class SharedRing {
 
   /// Writer's thread. `message` has the shape's size.
   void write(std::span<const std::byte> message) noexcept;
-  /// Reader's thread: the oldest that was not read, into `message` of the shape's size, which is spoilt where it is
-  /// torn.
+  /// Reader's thread: the oldest that was not read, into `message` of the shape's size; spoilt where it is torn.
   [[nodiscard]] Took read(std::span<std::byte> message) noexcept;
   /// Reader's thread: forgets what waits.
   void skip() noexcept;
@@ -58,17 +60,23 @@ class SharedRing {
 
  private:
   struct Header;
-  struct Mapping;
 
-  SharedRing(std::unique_ptr<Mapping> mapping, const Shape& shape) noexcept;
-  [[nodiscard]] Header& header() const noexcept;
+  SharedRing(std::filesystem::path path, const struct stat& is, const Shape& shape, bool is_maker) noexcept
+      : path_(std::move(path)), is_(is), shape_(shape), is_maker_(is_maker) {}
+  [[nodiscard]] static std::size_t bytes_of(const Shape& shape) noexcept;
+  /// Null where it is no file of this user's alone, of another size, or cannot be mapped.
+  [[nodiscard]] static std::unique_ptr<SharedRing> map(const std::filesystem::path& path, int file, const Shape& shape,
+                                                       bool is_maker);
   /// The slot's own number, followed by the message.
   [[nodiscard]] std::uint64_t* slot_of(std::uint64_t number) const noexcept;
   void ring_bell() noexcept;
 
-  std::unique_ptr<Mapping> mapping_;
+  std::filesystem::path path_;
+  struct stat is_;
   Shape shape_;
-  std::uint64_t written_, next_;  ///< the last one written; the next one to read. From 1
+  bool is_maker_;
+  Header* header_ = nullptr;
+  std::uint64_t written_ = 0, next_ = 1;  ///< the last one written; the next one to read. From 1
   std::uint64_t lost_ = 0;
 };
 

@@ -5,6 +5,7 @@
 #include <netinet/in.h>
 #include <netinet/tcp.h>
 #include <poll.h>
+#include <sys/socket.h>
 #include <termios.h>
 
 #include <algorithm>
@@ -18,9 +19,27 @@ namespace {
 
 constexpr std::uint32_t kSlowestBaud = 50, kFastestBaud = 4'000'000;
 
+FileDescriptor open_socket(const sockaddr_storage& address, socklen_t size) noexcept {
+  FileDescriptor made(::socket(address.ss_family, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
+  if (made.get() < 0) return made;
+  const int on = 1;
+  static_cast<void>(::setsockopt(made.get(), IPPROTO_TCP, TCP_NODELAY, &on, sizeof on));
+  if (::connect(made.get(), reinterpret_cast<const sockaddr*>(&address), size) == 0 || errno == EINPROGRESS)
+    return made;
+  return FileDescriptor();
+}
+
+FileDescriptor open_line(const std::string& path, std::uint32_t baud) noexcept {
+  FileDescriptor line(::open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
+  if (line.get() < 0 || !set_raw(line.get(), baud)) return FileDescriptor();
+  static_cast<void>(::tcflush(line.get(), TCIFLUSH));
+  return line;
+}
+
 }  // namespace
 
-TcpEndpoint::TcpEndpoint(const std::string& host, std::uint16_t port) : name_(host + ":" + std::to_string(port)) {
+Endpoint tcp_endpoint(const std::string& host, std::uint16_t port) {
+  const std::string name = host + ":" + std::to_string(port);
   addrinfo wanted{};
   wanted.ai_socktype = SOCK_STREAM;
   addrinfo* found = nullptr;
@@ -31,40 +50,25 @@ TcpEndpoint::TcpEndpoint(const std::string& host, std::uint16_t port) : name_(ho
     if (failure == 0) break;
   }
   if (failure != 0) {
-    throw StartupError(name_ + ": no such host (" + ::gai_strerror(failure) + ")",
+    throw StartupError(name + ": no such host (" + ::gai_strerror(failure) + ")",
                        "give the device's address, and see that the network is up");
   }
   const std::unique_ptr<addrinfo, decltype(&::freeaddrinfo)> owner(found, &::freeaddrinfo);
-  std::memcpy(&address_, found->ai_addr, std::min<std::size_t>(found->ai_addrlen, sizeof address_));
-  address_size_ = found->ai_addrlen;
+  sockaddr_storage address{};
+  std::memcpy(&address, found->ai_addr, std::min<std::size_t>(found->ai_addrlen, sizeof address));
+  return {name, [address, size = found->ai_addrlen] { return open_socket(address, size); }};
 }
 
-FileDescriptor TcpEndpoint::open() const noexcept {
-  FileDescriptor made(::socket(address_.ss_family, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
-  if (made.get() < 0) return made;
-  const int on = 1;
-  static_cast<void>(::setsockopt(made.get(), IPPROTO_TCP, TCP_NODELAY, &on, sizeof on));
-  const auto* const address = reinterpret_cast<const sockaddr*>(&address_);
-  if (::connect(made.get(), address, address_size_) == 0 || errno == EINPROGRESS) return made;
-  return FileDescriptor();
-}
-
-SerialEndpoint::SerialEndpoint(std::string path, std::uint32_t baud) : path_(std::move(path)), baud_(baud) {
+Endpoint serial_endpoint(const std::string& path, std::uint32_t baud) {
   if (baud < kSlowestBaud || baud > kFastestBaud) {
-    throw StartupError(path_ + ": no serial line runs at " + std::to_string(baud) + " baud",
+    throw StartupError(path + ": no serial line runs at " + std::to_string(baud) + " baud",
                        "give the rate in the device's manual, for example 115200");
   }
-}
-
-FileDescriptor SerialEndpoint::open() const noexcept {
-  FileDescriptor line(::open(path_.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
-  if (line.get() < 0 || !set_raw(line.get(), baud_)) return FileDescriptor();
-  static_cast<void>(::tcflush(line.get(), TCIFLUSH));
-  return line;
+  return {path, [path, baud] { return open_line(path, baud); }};
 }
 
 void ByteLink::open() noexcept {
-  file_ = endpoint_->open();
+  file_ = endpoint_.open();
   state_ = file_.get() < 0 ? State::kClosed : State::kOpening;
 }
 
@@ -112,8 +116,8 @@ void ByteLink::wait(Duration most) noexcept {
 
 std::unique_ptr<Link> make_byte_link(const std::string& host, std::uint16_t port, const std::string& device,
                                      std::uint32_t baud) {
-  if (host.empty()) return std::make_unique<ByteLink>(std::make_unique<SerialEndpoint>(device, baud));
-  return std::make_unique<ByteLink>(std::make_unique<TcpEndpoint>(host, port));
+  if (host.empty()) return std::make_unique<ByteLink>(serial_endpoint(device, baud));
+  return std::make_unique<ByteLink>(tcp_endpoint(host, port));
 }
 
 }  // namespace jaywalk::wire

@@ -1,11 +1,11 @@
 #pragma once
 // Serial lines and TCP connections that open again by themselves.
-#include <sys/socket.h>
-
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
+#include <utility>
 
 #include "drivers/wire/byte_reader.h"
 #include "drivers/wire/file_descriptor.h"
@@ -14,42 +14,20 @@
 namespace jaywalk::wire {
 
 /// Where a device is found that speaks in bytes, and how it is opened again and again.
-class Endpoint {
- public:
-  virtual ~Endpoint() = default;
+struct Endpoint {
+  std::string name;  ///< as a person would put it: "192.168.0.1:2112", "/dev/ttyUSB0"
   /// Opens it without waiting or allocating: the descriptor, which may still be connecting; -1 where that failed.
-  [[nodiscard]] virtual FileDescriptor open() const noexcept = 0;
-  /// How a person would name it: "192.168.0.1:2112", "/dev/ttyUSB0".
-  [[nodiscard]] virtual const std::string& name() const noexcept = 0;
+  std::function<FileDescriptor()> open;
 };
 
-/// A TCP port. The host's name is looked up once, at start.
-class TcpEndpoint final : public Endpoint {
- public:
-  /// Throws StartupError where `host` is no address and no name that is known.
-  TcpEndpoint(const std::string& host, std::uint16_t port);
-  [[nodiscard]] FileDescriptor open() const noexcept override;
-  [[nodiscard]] const std::string& name() const noexcept override { return name_; }
+/// A TCP port. The host's name is looked up once, here. Throws StartupError where `host` is no address and no name that
+/// is known.
+[[nodiscard]] Endpoint tcp_endpoint(const std::string& host, std::uint16_t port);
 
- private:
-  std::string name_;
-  sockaddr_storage address_{};
-  socklen_t address_size_ = 0;
-};
-
-/// A serial line: 8 data bits, no parity, one stop bit, no flow control, nothing translated.
-class SerialEndpoint final : public Endpoint {
- public:
-  /// `path` need not exist yet: a device may be plugged in later. Throws StartupError for a rate that no line has.
-  SerialEndpoint(std::string path, std::uint32_t baud);
-  /// What came in before it was opened is thrown away.
-  [[nodiscard]] FileDescriptor open() const noexcept override;
-  [[nodiscard]] const std::string& name() const noexcept override { return path_; }
-
- private:
-  std::string path_;
-  std::uint32_t baud_;
-};
+/// A serial line: 8 data bits, no parity, one stop bit, no flow control, nothing translated. What came in before it was
+/// opened is thrown away. `path` need not exist yet: a device may be plugged in later. Throws StartupError for a rate
+/// that no line has.
+[[nodiscard]] Endpoint serial_endpoint(const std::string& path, std::uint32_t baud);
 
 /// A connection to a device. Only `wait` waits; nothing allocates after construction. Thread: one.
 class Link {
@@ -77,9 +55,9 @@ class Link {
 /// One that carries bytes both ways, a TCP socket or a serial line; it reads at most as much as `room` holds.
 class ByteLink final : public Link {
  public:
-  explicit ByteLink(std::unique_ptr<Endpoint> endpoint) noexcept : endpoint_(std::move(endpoint)) {}
+  explicit ByteLink(Endpoint endpoint) noexcept : endpoint_(std::move(endpoint)) {}
 
-  [[nodiscard]] const std::string& name() const noexcept override { return endpoint_->name(); }
+  [[nodiscard]] const std::string& name() const noexcept override { return endpoint_.name; }
   void open() noexcept override;
   void close() noexcept override;
   [[nodiscard]] State state() noexcept override;
@@ -88,7 +66,7 @@ class ByteLink final : public Link {
   void wait(Duration most) noexcept override;
 
  private:
-  std::unique_ptr<Endpoint> endpoint_;
+  Endpoint endpoint_;
   FileDescriptor file_;
   State state_ = State::kClosed;
 };

@@ -21,6 +21,28 @@ namespace {
 
 constexpr int kBadInput = 2;
 
+/// The first option that `command` does not have, with the one that was meant; empty where all are known.
+std::string unknown_option(const std::string& program, const CLI::App& command) {
+  std::vector<std::string> known;
+  for (const CLI::Option* option : command.get_options())
+    for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
+  for (const std::string& word : command.remaining()) {
+    if (word.rfind('-', 0) != 0) continue;
+    const std::string see = "see " + program + " " + command.get_name() + " --help";
+    return shown(word) + ": no such option; " + did_you_mean(word.substr(0, word.find('=')), known, see);
+  }
+  return "";
+}
+
+/// One line for a command line that the parser refuses.
+std::string parse_message(const CLI::App* app, const CLI::Error& error) {
+  const auto given = app->get_subcommands();
+  const std::string unknown = given.empty() ? "" : unknown_option(app->get_name(), *given[0]);
+  if (!unknown.empty()) return app->get_name() + ": " + unknown + "\n";
+  return app->get_name() + ": " + printable(error.what()) + "; see " + app->get_name() + " " +
+         (given.empty() ? "" : given[0]->get_name() + " ") + "--help\n";
+}
+
 /// The parser would only say that one is missing.
 void require_command(const CLI::App& app, int argc, char** argv) {
   std::vector<std::string> names;
@@ -64,22 +86,14 @@ std::filesystem::path socket_path;
 std::vector<std::string> goal;
 bool stop_now = false, as_json = false, forced = false;
 
-void add_socket(CLI::App* command) {
-  command->add_option("--socket", socket_path, "The run's control socket (default: $JAYWALK_SOCKET, or the usual one)");
+/// `say_it`: what the command does once its options are read. Returns its exit code.
+void add_order(CLI::App& command, int& exit_code, std::function<int()> say_it) {
+  command.add_option("--socket", socket_path, "The run's control socket (default: $JAYWALK_SOCKET, or the usual one)");
+  command.callback([&exit_code, say_it = std::move(say_it)] { exit_code = say_it(); });
 }
 
-/// Prints what the run answers; 1 where it refuses.
-int say(const std::string& line) {
-  const std::string answer = ask(socket_path.empty() ? default_control_socket() : socket_path, line);
-  const bool refused = answer.starts_with("refused");
-  std::fputs(answer.c_str(), refused ? stderr : stdout);
-  return refused ? 1 : 0;
-}
-
-/// The answer's lines "key: value" as one object.
-int say_as_json(const std::string& line) {
-  const std::string answer = ask(socket_path.empty() ? default_control_socket() : socket_path, line);
-  if (answer.starts_with("refused")) return std::fputs(answer.c_str(), stderr), 1;
+/// Prints the answer's lines "key: value" as one object.
+void print_as_json(const std::string& answer) {
   nlohmann::ordered_json json;
   std::istringstream lines(answer);
   for (std::string said; std::getline(lines, said);) {
@@ -87,7 +101,17 @@ int say_as_json(const std::string& line) {
     if (colon != std::string::npos) json[said.substr(0, colon)] = said.substr(colon + 2);
   }
   std::printf("%s\n", json.dump(1).c_str());
-  return 0;
+}
+
+/// Prints what the run answers; 1 where it refuses.
+int say(const std::string& line) {
+  const std::string answer = ask(socket_path.empty() ? default_control_socket() : socket_path, line);
+  const bool refused = answer.starts_with("refused");
+  if (as_json && !refused)
+    print_as_json(answer);
+  else
+    std::fputs(answer.c_str(), refused ? stderr : stdout);
+  return refused ? 1 : 0;
 }
 
 /// `order`: what to do with it.
@@ -135,6 +159,21 @@ std::string text_of(const Footer& footer, const std::string& program) {
          ", 2: bad input or set-up, 130: ended by Ctrl-C";
 }
 
+/// Whatever is opened first takes the number of a standard stream that was closed, a recording or a bus, and is written
+/// to by what writes to that: gives such numbers to /dev/null. To be called before anything is opened.
+void open_standard_streams() {
+  int file = 0;
+  do file = ::open("/dev/null", O_RDWR);
+  while (file >= 0 && file <= STDERR_FILENO);
+  if (file > STDERR_FILENO) ::close(file);
+}
+
+/// Throws StartupError when standard output did not take all that was said there, as on a full disk.
+void require_heard() {
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return;
+  throw StartupError("standard output: not all of it was taken", "free some space where it goes");
+}
+
 }  // namespace
 
 int run_program(CLI::App& app, int argc, char** argv, const AddCommands& add_commands) {
@@ -142,15 +181,14 @@ int run_program(CLI::App& app, int argc, char** argv, const AddCommands& add_com
   std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow (ulimit -f) is a full disk, and told as one
   int code = kBadInput;
   try {
-    code = parse_and_run(app, argc, argv, add_commands);
+    const int said = parse_and_run(app, argc, argv, add_commands);
     require_heard();
+    code = said;
   } catch (const StartupError& error) {
     std::fprintf(stderr, "%s: %s\n", app.get_name().c_str(), printable(error.what()).c_str());
-    code = kBadInput;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s: %s; please report this with the command that led to it\n", app.get_name().c_str(),
                  printable(error.what()).c_str());
-    code = kBadInput;
   }
   if (has_device_left_behind()) std::fflush(nullptr), std::_Exit(code);
   return code;
@@ -166,40 +204,23 @@ void add_robot_commands(CLI::App& app, int& exit_code, const MakeObserver& make_
       ->delimiter(',')
       ->expected(1, static_cast<int>(Route::capacity()))
       ->required();
-  add_socket(go);
-  go->callback([&exit_code] { exit_code = say_place("goto"); });
+  add_order(*go, exit_code, [] { return say_place("goto"); });
   CLI::App* here = app.add_subcommand("here", "Tell a run that stands where it is");
   here->add_option("place", goal, "X,Y HEADING in the map (m, rad), or the name of a place that has one")
       ->delimiter(',')
       ->expected(1, 3)
       ->required();
   here->add_flag("--force", forced, "Take it although the scan does not fit the map there; the run says so");
-  add_socket(here);
-  here->callback([&exit_code] { exit_code = say_place("here"); });
+  add_order(*here, exit_code, [] { return say_place("here"); });
   CLI::App* stop = app.add_subcommand("stop", "Tell a run to stop where it is");
   stop->add_flag("--now", stop_now, "As an emergency: brake hard, and latch until a reset");
-  add_socket(stop);
-  stop->callback([&exit_code] { exit_code = say(stop_now ? "stop now" : "stop"); });
-  CLI::App* reset = app.add_subcommand("reset", "After a fault that stopped a run: let it move again");
-  add_socket(reset);
-  reset->callback([&exit_code] { exit_code = say("reset"); });
+  add_order(*stop, exit_code, [] { return say(stop_now ? "stop now" : "stop"); });
+  add_order(*app.add_subcommand("reset", "After a fault that stopped a run: let it move again"), exit_code,
+            [] { return say("reset"); });
   CLI::App* status = app.add_subcommand("status", "Ask a run how it goes");
-  add_socket(status);
+  add_order(*status, exit_code, [] { return say("status"); });
   status->add_flag("--json", as_json, "As JSON: an object with a text for each line");
-  status->callback([&exit_code] { exit_code = as_json ? say_as_json("status") : say("status"); });
   add_footers(app, kFooters);
-}
-
-void open_standard_streams() {
-  int file = 0;
-  do file = ::open("/dev/null", O_RDWR);
-  while (file >= 0 && file <= STDERR_FILENO);
-  if (file > STDERR_FILENO) ::close(file);
-}
-
-void require_heard() {
-  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return;
-  throw StartupError("standard output: not all of it was taken", "free some space where it goes");
 }
 
 void add_footers(CLI::App& app, std::span<const Footer> footers) {

@@ -6,6 +6,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "firmware/control_setup.h"
@@ -56,35 +57,20 @@ using AddCommands = std::function<void(CLI::App& app, int& exit_code)>;
 /// its exit code in `exit_code`; all outlive the parsing.
 void add_robot_commands(CLI::App& app, int& exit_code, const MakeObserver& make_observer);
 
-/// Whatever is opened first takes the number of a standard stream that was closed, a recording or a bus, and is written
-/// to by what writes to that: gives such numbers to /dev/null. To be called before anything is opened.
-void open_standard_streams();
-
-/// Throws StartupError when standard output did not take all that was said there, as on a full disk.
-void require_heard();
-
-// Options whose value is one of a few words.
-
+/// An option whose value is one of a few words. `chosen` holds the default. Help and errors show the words, which the
+/// parser's own checks mix with the values behind them. Parsing throws StartupError for any other word.
 template <class T>
-struct Choice {
-  std::string word;
-  T value;
-};
-
-/// `chosen` holds the default. Help and errors show the words, which the parser's own checks mix with the values behind
-/// them. Parsing throws StartupError for any other word.
-template <class T>
-void add_choice(CLI::App& command, const std::string& option, T& chosen, const std::vector<Choice<T>>& choices,
-                const std::string& about) {
+void add_choice(CLI::App& command, const std::string& option, T& chosen,
+                const std::vector<std::pair<std::string, T>>& choices, const std::string& about) {
   std::string words, usual;
-  for (const Choice<T>& choice : choices) {
-    words += (words.empty() ? "" : "|") + choice.word;
-    if (choice.value == chosen) usual = choice.word;
+  for (const auto& [word, value] : choices) {
+    words += (words.empty() ? "" : "|") + word;
+    if (value == chosen) usual = word;
   }
   const auto choose = [&chosen, option, choices, words](const std::string& word) {
-    const auto found = std::find_if(choices.begin(), choices.end(), [&](const auto& c) { return c.word == word; });
+    const auto found = std::find_if(choices.begin(), choices.end(), [&](const auto& c) { return c.first == word; });
     if (found == choices.end()) throw StartupError(option + ": no such choice: " + shown(word), "give " + words);
-    chosen = found->value;
+    chosen = found->second;
   };
   command.add_option_function<std::string>(option, choose, about)->type_name(words)->default_str(usual);
 }
@@ -97,7 +83,6 @@ inline void add_backend(CLI::App& command, Backend& chosen, int& device) {
       ->capture_default_str();
 }
 
-/// --part-bytes and --keep-parts.
 inline void add_parts(CLI::App& command, PartsKept& kept) {
   command
       .add_option("--part-bytes", kept.bytes,
@@ -107,28 +92,6 @@ inline void add_parts(CLI::App& command, PartsKept& kept) {
   command.add_option("--keep-parts", kept.parts, "How many parts are kept, the one that is written among them")
       ->check(CLI::Range(2, 1'000'000))
       ->capture_default_str();
-}
-
-/// The first option that `command` does not have, with the one that was meant; empty where all are known.
-inline std::string unknown_option(const std::string& program, const CLI::App& command) {
-  std::vector<std::string> known;
-  for (const CLI::Option* option : command.get_options())
-    for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
-  for (const std::string& word : command.remaining()) {
-    if (word.rfind('-', 0) != 0) continue;
-    const std::string see = "see " + program + " " + command.get_name() + " --help";
-    return shown(word) + ": no such option; " + did_you_mean(word.substr(0, word.find('=')), known, see);
-  }
-  return "";
-}
-
-/// One line for a command line that the parser refuses.
-inline std::string parse_message(const CLI::App* app, const CLI::Error& error) {
-  const auto given = app->get_subcommands();
-  const std::string unknown = given.empty() ? "" : unknown_option(app->get_name(), *given[0]);
-  if (!unknown.empty()) return app->get_name() + ": " + unknown + "\n";
-  return app->get_name() + ": " + printable(error.what()) + "; see " + app->get_name() + " " +
-         (given.empty() ? "" : given[0]->get_name() + " ") + "--help\n";
 }
 
 /// Throws StartupError for a word of the command line that is empty, or an option that ends in "=": the parser would

@@ -87,22 +87,9 @@ std::vector<std::string> entered_realtime(const RealtimeWishes& wishes, RobotLoo
   return not_permitted;
 }
 
-/// What the drives said to their proof.
-std::vector<std::string> armed_by(WiredDrive& drive, ArmedMark& mark, const std::filesystem::path& out) {
-  mark.set();
-  const std::vector<std::string> proof = drive.arm();
-  write_arming(out, proof);
-  return proof;
-}
-
 std::string outcome(const RunStatus& last) {
   if (last.latched) return "fault";
   return last.goal_reached ? "reached" : "stopped";
-}
-
-/// How far off the heading wanted at the last goal.
-std::optional<double> at_goal(const RunStatus& last) {
-  return std::isnan(last.heading_error_rad) ? std::nullopt : std::optional(last.heading_error_rad);
 }
 
 std::filesystem::path socket_for(const RunOptions& options, const RobotFile& file) {
@@ -128,8 +115,7 @@ void locate_on_map(const std::filesystem::path& path, RobotFile& file, Clock& cl
   file.setup.start = located_on(*file.setup.known_map, scan, file.setup.model.laser, path.string() + ": map: ");
   file.setup.goal = file.setup.start.position();
   const Pose2& start = file.setup.start;
-  const std::string words = formatted("found on the map at %.2f, %.2f, heading %.2f", start.x, start.y, start.heading);
-  remark(words);
+  remark(formatted("found on the map at %.2f, %.2f, heading %.2f", start.x, start.y, start.heading));
 }
 
 RobotFile load_robot(const RunOptions& options) {
@@ -151,13 +137,15 @@ void choose_folder(RunOptions& options, std::optional<RunFolder>& folder) {
 int conclude(const RunOptions& options, LoopRunner& runner, const LoopReport& report, const LoopTimes& times) {
   const RunStatus& last = report.last();
   const std::string robot = options.robot.filename().string();
-  const std::filesystem::path shown = runner.finish({.outcome = outcome(last),
-                                                     .success = outcome(last) == "reached",
-                                                     .heading_error_rad = at_goal(last),
-                                                     .missed_ticks = last.missed_ticks,
-                                                     .loop_times = &times,
-                                                     .scenario = robot,
-                                                     .title = robot + ": " + outcome(last)});
+  const double off_rad = last.heading_error_rad;
+  const std::filesystem::path shown =
+      runner.finish({.outcome = outcome(last),
+                     .success = outcome(last) == "reached",
+                     .heading_error_rad = std::isnan(off_rad) ? std::nullopt : std::optional(off_rad),
+                     .missed_ticks = last.missed_ticks,
+                     .loop_times = &times,
+                     .scenario = robot,
+                     .title = robot + ": " + outcome(last)});
   if (options.save_map) save_map(runner.loop().tracker().still(), options.out);
   runner.require_recorded();
   remark("disarmed; " + outcome(last) + "; see " + shown.string());
@@ -202,7 +190,9 @@ int run_robot(RunOptions options, const MakeObserver& make_observer) {
   const std::vector<std::string> not_permitted = entered_realtime(file.realtime, loop);
   controls.start(order_priority(file.realtime));
   devices.start();
-  const std::vector<std::string> proof = armed_by(devices.drive(), armed, options.out);
+  armed.set();
+  const std::vector<std::string> proof = devices.drive().arm();
+  write_arming(options.out, proof);
   if (folder) folder->keep(options.kept);
   if (armed.was_left()) latch_at_start(desk);
   guard.start(guard_priority(file.realtime));

@@ -123,10 +123,9 @@ std::shared_ptr<const KnownMap> load_known_map(const std::filesystem::path& yaml
   map->low = {cell_of(box.low.x, cell_m), cell_of(box.low.y, cell_m)};
   map->width = end_cell_of(box.high.x, cell_m) - map->low.i;
   map->height = end_cell_of(box.high.y, cell_m) - map->low.j;
-  if (map->width > kMostKnownCells || map->height > kMostKnownCells) {
-    const std::string side = formatted(": more than %.0f m a side", kMostKnownCells * cell_m);
-    throw StartupError(yaml.string() + side, "cut the map to where the robot drives");
-  }
+  if (map->width > kMostKnownCells || map->height > kMostKnownCells)
+    throw StartupError(yaml.string() + formatted(": more than %.0f m a side", kMostKnownCells * cell_m),
+                       "cut the map to where the robot drives");
   map->cells.assign(static_cast<std::size_t>(map->width) * static_cast<std::size_t>(map->height), KnownCell::kUnknown);
   draw(raster, *map);
   return map;
@@ -136,8 +135,7 @@ Pose2 located_on(const KnownMap& map, const LaserScan& scan, const LaserModel& l
   ScanProjection projection;
   ScanPoints points;
   projection.project(scan, laser.robot_from_laser, {}, points);
-  MatchSample sample;
-  sample_of(points, sample);
+  const MatchSample sample = sample_of(points);
   const std::string remedy = "give start = [x, y, heading]";
   if (sample.size() < kFewestPoints)
     throw StartupError(place + "the scan has too few points to find its place", remedy);

@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "drivers/wire/byte_reader.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk {
@@ -28,29 +29,21 @@ std::span<const unsigned char> bytes_of(const std::string& text) {
   return {reinterpret_cast<const unsigned char*>(text.data()), text.size()};
 }
 
-/// What stands before an entry's bytes, or at the end (length 0, `check` the number of entries).
-struct EntryHead {
-  std::uint32_t length = 0;
-  std::uint32_t inverse = 0;
-  std::uint32_t check = 0;
-};
-
-std::array<unsigned char, kEntryHeadBytes> encode(std::uint32_t length, std::uint32_t check) {
-  std::array<unsigned char, kEntryHeadBytes> bytes{};
-  ByteSink sink(bytes);
-  sink.number(length);
-  sink.number(~length);
-  sink.number(check);
-  return bytes;
+std::uint32_t word_in(std::span<const unsigned char> bytes, std::size_t at) {
+  return wire::little_endian<std::uint32_t>(bytes.subspan(at));
 }
 
-EntryHead decode(std::span<const unsigned char> bytes) {
-  ByteSource source(bytes);
-  EntryHead head;
-  source.number(head.length);
-  source.number(head.inverse);
-  source.number(head.check);
-  return head;
+void put_word(std::uint32_t word, std::span<unsigned char> bytes, std::size_t at) {
+  wire::put_little_endian(word, bytes.subspan(at));
+}
+
+/// Length, its inverse and `check`: before an entry's bytes their CRC; at the end (length 0) the number of entries.
+std::array<unsigned char, kEntryHeadBytes> encode(std::uint32_t length, std::uint32_t check) {
+  std::array<unsigned char, kEntryHeadBytes> bytes{};
+  put_word(length, bytes, 0);
+  put_word(~length, bytes, 4);
+  put_word(check, bytes, 8);
+  return bytes;
 }
 
 }  // namespace
@@ -67,11 +60,10 @@ RecordingWriter::RecordingWriter(const std::string& file, const std::string& set
     throw StartupError(file + ": a setup of " + std::to_string(setup.size()) + " bytes", "keep it below 16 MiB");
   std::array<unsigned char, kMagic.size() + 8> head{};
   std::memcpy(head.data(), kMagic.data(), kMagic.size());
-  ByteSink numbers(std::span<unsigned char>(head).subspan(kMagic.size()));
-  numbers.number(kRecordingVersion);
-  numbers.number(static_cast<std::uint32_t>(setup.size()));
+  put_word(kRecordingVersion, head, kMagic.size());
+  put_word(static_cast<std::uint32_t>(setup.size()), head, kMagic.size() + 4);
   std::array<unsigned char, 4> check{};
-  ByteSink(check).number(crc_of(bytes_of(setup), crc_of(head)));
+  put_word(crc_of(bytes_of(setup), crc_of(head)), check, 0);
   put(head);
   put(bytes_of(setup));
   put(check);
@@ -109,7 +101,7 @@ void RecordingWriter::write_out() noexcept {
   }
   std::size_t whole = 0;  // entries; of a header that is cut nothing is kept
   while (header_written_ && taken - whole >= kEntryHeadBytes) {
-    const std::size_t entry = kEntryHeadBytes + decode(block.subspan(whole)).length;
+    const std::size_t entry = kEntryHeadBytes + word_in(block, whole);
     if (taken - whole < entry) break;
     whole += entry;
   }
@@ -144,10 +136,7 @@ void RecordingReader::read_header() {
   std::array<unsigned char, kMagic.size() + 8> head{};
   if (!read(head.data(), head.size())) damaged("too short for a recording");
   if (std::memcmp(head.data(), kMagic.data(), kMagic.size()) != 0) damaged("not a recording");
-  ByteSource numbers(std::span<const unsigned char>(head).subspan(kMagic.size()));
-  std::uint32_t version = 0, setup_bytes = 0;
-  numbers.number(version);
-  numbers.number(setup_bytes);
+  const std::uint32_t version = word_in(head, kMagic.size()), setup_bytes = word_in(head, kMagic.size() + 4);
   if (version != kRecordingVersion) {
     throw StartupError(file_ + ": byte 8: format version " + std::to_string(version) + ", this program reads " +
                            std::to_string(kRecordingVersion) + " alone",
@@ -158,60 +147,51 @@ void RecordingReader::read_header() {
   std::array<unsigned char, 4> check{};
   if (!read(reinterpret_cast<unsigned char*>(setup_.data()), setup_bytes) || !read(check.data(), check.size()))
     damaged("the header is cut");
-  std::uint32_t crc = 0;
-  ByteSource(check).number(crc);
-  if (crc != crc_of(bytes_of(setup_), crc_of(head))) damaged("the header is damaged");
+  if (word_in(check, 0) != crc_of(bytes_of(setup_), crc_of(head))) damaged("the header is damaged");
   position_ = head.size() + setup_bytes + check.size();
 }
 
-void RecordingReader::cut_short() {
+bool RecordingReader::cut_short() {
   ended_ = true;
   warning_ = file_ + ": byte " + std::to_string(position_) + ": cut short after " + std::to_string(entries_) +
              " ticks; what stands before is good";
+  return false;
 }
 
-void RecordingReader::check_end(std::uint32_t entries) {
+bool RecordingReader::check_end(std::uint32_t entries) {
   if (entries != entries_)
     damaged("the end mark counts " + std::to_string(entries) + " ticks, there are " + std::to_string(entries_));
   position_ += kEntryHeadBytes;
   unsigned char beyond = 0;
   if (read(&beyond, 1)) damaged("something follows the end mark");
   ended_ = true;
+  return false;
 }
 
 bool RecordingReader::next(TickRecord& record) {
   if (ended_) return false;
   std::array<unsigned char, kEntryHeadBytes> bytes{};
-  if (!read(bytes.data(), bytes.size())) {
-    cut_short();
-    return false;
-  }
-  const EntryHead head = decode(bytes);
-  if (head.inverse != ~head.length || head.length > kMaxEntryBytes) damaged("an entry's length is damaged");
-  if (head.length == 0) {
-    check_end(head.check);
-    return false;
-  }
-  if (!read(entry_.data(), head.length)) {
-    cut_short();
-    return false;
-  }
-  const std::span<const unsigned char> entry = std::span<const unsigned char>(entry_).first(head.length);
-  if (crc_of(entry) != head.check) damaged("an entry's check sum is wrong");
+  if (!read(bytes.data(), bytes.size())) return cut_short();
+  const std::uint32_t length = word_in(bytes, 0), check = word_in(bytes, 8);
+  if (word_in(bytes, 4) != ~length || length > kMaxEntryBytes) damaged("an entry's length is damaged");
+  if (length == 0) return check_end(check);
+  if (!read(entry_.data(), length)) return cut_short();
+  const std::span<const unsigned char> entry = std::span<const unsigned char>(entry_).first(length);
+  if (crc_of(entry) != check) damaged("an entry's check sum is wrong");
   if (!decoder_.decode(entry, record, lost_before_)) damaged("an entry holds values that no tick has");
-  position_ += kEntryHeadBytes + head.length;
+  position_ += kEntryHeadBytes + length;
   ++entries_;
   return true;
 }
 
 Recorder::Recorder(const RecorderConfig& config)
     : writer_(config.file.empty() ? nullptr : std::make_unique<RecordingWriter>(config.file, config.setup)),
-      ring_(std::max<std::size_t>(config.capacity, 1)) {}
+      ring_(config.capacity) {}
 
 TickRecord& Recorder::begin(Time now) noexcept {
-  const std::uint64_t next = committed_.load(std::memory_order_relaxed);
-  begun_in_ring_ = next - drained_.load(std::memory_order_acquire) < ring_.size();
-  Slot& fresh = begun_in_ring_ ? slot(next) : spare_;
+  Slot* const free = ring_.draft();
+  begun_in_ring_ = free != nullptr;
+  Slot& fresh = begun_in_ring_ ? *free : spare_;
   fresh.record = TickRecord{};
   fresh.record.now = now;
   return fresh.record;
@@ -223,20 +203,16 @@ void Recorder::commit() noexcept {
     dropped_.fetch_add(1, std::memory_order_relaxed);
     return;
   }
-  const std::uint64_t next = committed_.load(std::memory_order_relaxed);
-  slot(next).lost_before = lost_since_kept_;
-  lost_since_kept_ = 0;
-  committed_.store(next + 1, std::memory_order_release);
+  ring_.draft()->lost_before = std::exchange(lost_since_kept_, 0);
+  ring_.publish();
 }
 
 bool Recorder::drain() noexcept {
   bool taken = true;
-  const std::uint64_t end = committed_.load(std::memory_order_acquire);
-  for (std::uint64_t tick = drained_.load(std::memory_order_relaxed); tick != end; ++tick) {
-    const Slot& oldest = slot(tick);
+  for (std::size_t left = ring_.capacity(); left > 0 && ring_.front() != nullptr; --left, ring_.pop()) {
+    const Slot& oldest = *ring_.front();
     if (writer_) taken = writer_->write(oldest.record, oldest.lost_before) && taken;
     last_drained_ = oldest.record.now;
-    drained_.store(tick + 1, std::memory_order_release);
   }
   if (!taken) note_loss();
   return taken;

@@ -1,6 +1,6 @@
 #pragma once
-// From the tick to the disk without making the tick wait: a ring of records in memory, filled by
-// the loop's thread and emptied by another, or by the main loop between ticks.
+// From the tick to the disk without making the tick wait: a ring of records in memory, filled by the loop's thread and
+// emptied by another, or by the main loop between ticks.
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
@@ -50,8 +50,8 @@ class AppendFile {
 //   then for each tick      u32 length  u32 ~length  u32 CRC of the bytes  bytes (tick_entry.h)
 //   and at the proper end   u32 0       u32 ~0       u32 number of entries, modulo 2^32
 //
-// CRC: the one of zlib and PNG. A file without its end was cut short (power lost, disk full); what
-// stands before the cut is good.
+// CRC: the one of zlib and PNG. A file without its end was cut short (power lost, disk full); what stands before the
+// cut is good.
 
 inline constexpr std::size_t kMaxSetupBytes = 16U << 20U;
 
@@ -74,7 +74,6 @@ class RecordingWriter {
   bool write(const TickRecord& record, std::uint64_t lost_before) noexcept;
   /// Writes the end mark and closes; false when anything was lost on the way to the disk.
   bool close() noexcept;
-  /// AppendFile's.
   [[nodiscard]] std::string complaint() const { return file_.complaint(); }
   /// Of the file, with what is not on the disk yet.
   [[nodiscard]] std::uintmax_t bytes() const noexcept { return file_.bytes() + used_; }
@@ -113,8 +112,9 @@ class RecordingReader {
  private:
   [[nodiscard]] bool read(unsigned char* to, std::size_t bytes) { return stream_.read(to, bytes) == bytes; }
   void read_header();
-  void check_end(std::uint32_t entries);
-  void cut_short();
+  /// Both return false: nothing follows.
+  bool check_end(std::uint32_t entries);
+  bool cut_short();
   [[noreturn]] void damaged(const std::string& cause) const;
 
   std::string file_;
@@ -130,16 +130,44 @@ class RecordingReader {
   std::string warning_;
 };
 
+/// Hands every T from one writing thread to one reading thread, in order; neither ever waits. Memory is taken in the
+/// constructor. A full ring takes no more, and the writer is told.
+template <class T, std::size_t N = 0>
+class Ring {
+ public:
+  explicit Ring(std::size_t capacity = N) : slots_(capacity) {}
+
+  [[nodiscard]] std::size_t capacity() const noexcept { return slots_.size(); }
+  /// Writer's thread: the slot to fill; null when full.
+  [[nodiscard]] T* draft() noexcept {
+    const std::size_t next = written_.load(std::memory_order_relaxed);
+    if (next - read_.load(std::memory_order_acquire) == slots_.size()) return nullptr;
+    return &slots_[next % slots_.size()];
+  }
+  /// Writer's thread: the draft is complete.
+  void publish() noexcept { written_.fetch_add(1, std::memory_order_release); }
+  /// Reader's thread: the oldest; null when there is none. Valid until pop().
+  [[nodiscard]] const T* front() const noexcept {
+    const std::size_t next = read_.load(std::memory_order_relaxed);
+    if (next == written_.load(std::memory_order_acquire)) return nullptr;
+    return &slots_[next % slots_.size()];
+  }
+  void pop() noexcept { read_.fetch_add(1, std::memory_order_release); }
+
+ private:
+  std::vector<T> slots_;
+  std::atomic<std::size_t> written_{0};
+  std::atomic<std::size_t> read_{0};
+};
+
 struct RecorderConfig {
   std::string file;            ///< recording.jwr; empty: records live in the ring and go nowhere
   std::string setup;           ///< what it takes to build the same controller again
   std::size_t capacity = 128;  ///< ticks that the ring holds: 2.6 s at 50 Hz, about 68 kB each
 };
 
-/// All memory is taken and the file opened in the constructor.
-///
-/// When the ring is full the tick's record is dropped and counted; the next that is kept says how
-/// many went missing before it. The tick never waits for the disk.
+/// All memory is taken and the file opened in the constructor. When the ring is full the tick's record is dropped and
+/// counted; the next that is kept says how many went missing before it. The tick never waits for the disk.
 class Recorder {
  public:
   /// Throws StartupError when the file cannot be written.
@@ -180,17 +208,14 @@ class Recorder {
     TickRecord record;
     std::uint64_t lost_before = 0;
   };
-  [[nodiscard]] Slot& slot(std::uint64_t tick) noexcept { return ring_[tick % ring_.size()]; }
 
   std::unique_ptr<RecordingWriter> writer_;
-  std::vector<Slot> ring_;
+  Ring<Slot> ring_;
   Slot spare_;  ///< what a tick fills while the ring is full
   bool begun_in_ring_ = true;
   Time last_drained_ = kNever;
   std::string lost_;  ///< what the disk did not take of a recording that is closed
   std::uint64_t lost_since_kept_ = 0;
-  std::atomic<std::uint64_t> committed_{0};  ///< records ever put in; written by the loop
-  std::atomic<std::uint64_t> drained_{0};    ///< records ever taken out; written by the drain
   std::atomic<std::uint64_t> dropped_{0};
   std::atomic<bool> losing_{false};
 };

@@ -2,34 +2,22 @@
 
 #include <fcntl.h>
 #include <sys/file.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstdio>
 #include <ctime>
-#include <fstream>
-#include <iterator>
 #include <regex>
-#include <string>
 #include <string_view>
 #include <utility>
 
 #include "hal/shown_text.h"
+#include "hal/text_file.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk {
 namespace {
-
-std::string name_of(std::chrono::system_clock::time_point now) {
-  const std::time_t seconds = std::chrono::system_clock::to_time_t(now);
-  std::tm utc{};
-  ::gmtime_r(&seconds, &utc);
-  char name[32];
-  std::strftime(name, sizeof name, "%Y-%m-%dT%H-%M-%SZ", &utc);
-  return name;
-}
 
 std::uintmax_t bytes_in(const std::filesystem::path& folder) {
   std::uintmax_t bytes = 0;
@@ -73,9 +61,7 @@ constexpr std::string_view kPrefix = "part-";
 constexpr std::uintmax_t kRoomBytes = 50'000;
 
 std::filesystem::path part(const std::filesystem::path& run, int number) {
-  char name[32];
-  std::snprintf(name, sizeof name, "part-%06d", number);
-  return run / name;
+  return run / formatted("part-%06d", number);
 }
 
 /// Oldest first.
@@ -105,8 +91,17 @@ void remove_part(const std::filesystem::path& folder) {
 
 }  // namespace
 
+std::string utc_text(std::chrono::system_clock::time_point when, const char* format) {
+  const std::time_t seconds = std::chrono::system_clock::to_time_t(when);
+  std::tm utc{};
+  ::gmtime_r(&seconds, &utc);
+  char text[32];
+  std::strftime(text, sizeof text, format, &utc);
+  return text;
+}
+
 RunFolder::RunFolder(const std::filesystem::path& all, std::chrono::system_clock::time_point now) {
-  const std::string name = name_of(now);
+  const std::string name = utc_text(now, "%Y-%m-%dT%H-%M-%SZ");
   std::error_code error;
   for (int k = 1; path_.empty(); ++k) {
     const std::filesystem::path folder = all / (k == 1 ? name : name + "-" + std::to_string(k));
@@ -133,14 +128,10 @@ OutFolder::OutFolder(const std::filesystem::path& path) : path_(path) {
   std::error_code error;
   std::filesystem::create_directories(path, error);
   if (error) throw StartupError(path.string() + ": " + error.message(), "give --out a folder that can be written");
-  held_ = ::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (held_ < 0 || ::flock(held_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;  // not every disk has locks
-  ::close(held_);
-  throw StartupError(path.string() + ": another run writes there", "wait for its end, or choose another --out");
-}
-
-OutFolder::~OutFolder() {
-  if (held_ >= 0) ::close(held_);
+  held_ = wire::FileDescriptor(::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  const bool is_locked = held_.get() >= 0 && ::flock(held_.get(), LOCK_EX | LOCK_NB) != 0;
+  if (is_locked && errno == EWOULDBLOCK)  // not every disk has locks
+    throw StartupError(path.string() + ": another run writes there", "wait for its end, or choose another --out");
 }
 
 std::filesystem::path set_aside(const std::filesystem::path& out) {
@@ -155,11 +146,7 @@ std::filesystem::path set_aside(const std::filesystem::path& out) {
   return to;
 }
 
-void print_summary(const std::filesystem::path& out) {
-  std::ifstream in(out / "summary.json");
-  const std::string text{std::istreambuf_iterator<char>(in), {}};
-  std::fputs(text.c_str(), stdout);
-}
+void print_summary(const std::filesystem::path& out) { std::fputs(text_in(out / "summary.json").c_str(), stdout); }
 
 void refuse_to_overwrite(std::span<const std::filesystem::path> inputs, const std::filesystem::path& out) {
   for (const std::filesystem::path& input : inputs) {

@@ -3,9 +3,15 @@
 #include <chrono>
 #include <filesystem>
 #include <span>
+#include <string>
 #include <vector>
 
+#include "drivers/wire/file_descriptor.h"
+
 namespace jaywalk {
+
+/// Universal time, as strftime() formats it.
+[[nodiscard]] std::string utc_text(std::chrono::system_clock::time_point when, const char* format);
 
 /// How much of past runs is kept.
 struct RunsKept {
@@ -41,15 +47,12 @@ class OutFolder {
  public:
   /// Makes it where it is missing. Throws StartupError where it cannot be made, or another run writes there.
   explicit OutFolder(const std::filesystem::path& path);
-  ~OutFolder();
-  OutFolder(const OutFolder&) = delete;
-  OutFolder& operator=(const OutFolder&) = delete;
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
 
  private:
   std::filesystem::path path_;
-  int held_;
+  wire::FileDescriptor held_;
 };
 
 /// Where a run left its recording in `out` that folder is renamed, "out.1" for "out" and so on: no run writes over

@@ -1,113 +1,136 @@
 #include "firmware/recording/tick_entry.h"
 
 #include <algorithm>
+#include <bit>
+#include <concepts>
+#include <limits>
+#include <type_traits>
+
+#include "drivers/wire/byte_reader.h"
 
 namespace jaywalk {
 namespace {
 
 // One list of fields serves both directions: Put takes const references and writes, Get takes
-// references and reads, so that writer and reader cannot drift apart.
+// references and reads, so that writer and reader cannot drift apart. Values are little-endian bytes, whatever the
+// machine; floating point as its bits, NaN payloads and all.
 
-struct Put {
-  ByteSink sink;
-  template <Number T>
+/// What does not fit into the bytes is left out.
+class Put {
+ public:
+  explicit Put(std::span<unsigned char> bytes) : bytes_(bytes) {}
+
+  template <std::integral T>
   void operator()(const T& value) {
-    sink.number(value);
+    if (bytes_.size() - written_ < sizeof(T)) return;
+    wire::put_little_endian(static_cast<std::make_unsigned_t<T>>(value), bytes_.subspan(written_));
+    written_ += sizeof(T);
   }
-  void operator()(const bool& value) { sink.number(static_cast<std::uint8_t>(value ? 1 : 0)); }
-  void operator()(const Duration& value) { sink.number(static_cast<std::int64_t>(value.count())); }
-  void operator()(const Time& value) { sink.number(static_cast<std::int64_t>(value.time_since_epoch().count())); }
+  void operator()(const float& value) { (*this)(std::bit_cast<std::uint32_t>(value)); }
+  void operator()(const double& value) { (*this)(std::bit_cast<std::uint64_t>(value)); }
+  void operator()(const bool& value) { (*this)(static_cast<std::uint8_t>(value ? 1 : 0)); }
+  void operator()(const Duration& value) { (*this)(static_cast<std::int64_t>(value.count())); }
+  void operator()(const Time& value) { (*this)(value.time_since_epoch()); }
   template <class Enum>
   requires std::is_enum_v<Enum>
-  void operator()(const Enum& value) { sink.number(static_cast<std::underlying_type_t<Enum>>(value)); }
-  std::uint32_t count(std::size_t size) {
-    sink.number(static_cast<std::uint32_t>(size));
-    return static_cast<std::uint32_t>(size);
+  void operator()(const Enum& value) { (*this)(static_cast<std::underlying_type_t<Enum>>(value)); }
+  std::uint32_t count(std::uint32_t n, std::uint32_t limit) {
+    n = std::min(n, limit);
+    (*this)(n);
+    return n;
   }
+  template <class T, std::size_t N>
+  void size(const FixedVector<T, N>& items) {
+    (*this)(static_cast<std::uint32_t>(items.size()));
+  }
+  /// A number that is mostly small: seven bits a byte, the lowest first; 0, -1, 1, -2 as 0, 1, 2, 3.
+  void small_number(std::int64_t value) {
+    auto bits = (static_cast<std::uint64_t>(value) << 1U) ^ static_cast<std::uint64_t>(value >> 63U);
+    for (; bits > 0x7FU; bits >>= 7U) (*this)(static_cast<std::uint8_t>(bits | 0x80U));
+    (*this)(static_cast<std::uint8_t>(bits));
+  }
+  [[nodiscard]] std::size_t written() const { return written_; }
+
+ private:
+  std::span<unsigned char> bytes_;
+  std::size_t written_ = 0;
 };
 
-struct Get {
-  ByteSource source;
-  template <Number T>
+/// Past the end it gives zeros, and the record is refused.
+class Get {
+ public:
+  explicit Get(std::span<const unsigned char> bytes) : bytes_(bytes) {}
+
+  template <std::integral T>
   void operator()(T& value) {
-    source.number(value);
+    value = static_cast<T>(bytes_.little<std::make_unsigned_t<T>>());
   }
-  void operator()(bool& value) { value = up_to(1) == 1; }
-  void operator()(Duration& value) { value = Duration{ticks()}; }
-  void operator()(Time& value) { value = Time{Duration{ticks()}}; }
+  void operator()(float& value) { value = std::bit_cast<float>(number_to<std::uint32_t>()); }
+  void operator()(double& value) { value = std::bit_cast<double>(number_to<std::uint64_t>()); }
+  void operator()(bool& value) { value = number_to<std::uint8_t>(1) == 1; }
+  void operator()(Duration& value) { value = Duration{number_to<std::int64_t>()}; }
+  void operator()(Time& value) { value = Time{Duration{number_to<std::int64_t>()}}; }
   void operator()(PlanStatus& value) { up_to(PlanStatus::kBackendFailed, value); }
   void operator()(StopStage& value) { up_to(StopStage::kSilent, value); }
   void operator()(DriveTrouble& value) { up_to(kLastDriveTrouble, value); }
   void operator()(DriveFaultKind& value) { up_to(kLastDriveFaultKind, value); }
-  void operator()(Reason& value) {
-    std::uint32_t bits = 0;
-    source.number(bits);
-    value = static_cast<Reason>(bits);
+  void operator()(Reason& value) { value = static_cast<Reason>(number_to<std::uint32_t>()); }
+  std::uint32_t count(std::uint32_t& n, std::uint32_t limit) { return n = number_to(limit); }
+  /// Items that were there stay, those that come are empty.
+  template <class T, std::size_t N>
+  void size(FixedVector<T, N>& items) {
+    const auto n = number_to(static_cast<std::uint32_t>(N));
+    while (items.size() < n) static_cast<void>(items.push_back({}));
+    items.truncate(n);
   }
-  /// A count that may not exceed `limit`; 0, and the record is refused, where it does.
-  std::uint32_t count(std::size_t limit) {
-    std::uint32_t n = 0;
-    source.number(n);
-    if (n > limit) {
-      source.refuse();
-      return 0;
+  void small_number(std::int64_t& value) {
+    std::uint64_t bits = 0;
+    std::uint8_t byte = 0x80;
+    for (unsigned shift = 0; (byte & 0x80U) != 0; shift += 7) {
+      if (shift > 63) return refuse();
+      (*this)(byte);
+      bits |= static_cast<std::uint64_t>(byte & 0x7FU) << shift;
     }
-    return n;
+    value = static_cast<std::int64_t>(bits >> 1U) ^ -static_cast<std::int64_t>(bits & 1U);
   }
+  void refuse() { refused_ = true; }
+  [[nodiscard]] bool is_at_end() const { return bytes_.rest().empty(); }
+  [[nodiscard]] bool ok() const { return bytes_.ok() && !refused_; }
 
  private:
   template <class Enum>
   void up_to(Enum most, Enum& value) {
-    value = static_cast<Enum>(up_to(static_cast<std::uint8_t>(most)));
+    value = static_cast<Enum>(number_to(static_cast<std::uint8_t>(most)));
   }
-  std::uint8_t up_to(std::uint8_t most) {
-    std::uint8_t value = 0;
-    source.number(value);
-    if (value > most) {
-      source.refuse();
-      return 0;
-    }
-    return value;
+  /// A number of at most `most`; 0, and the record is refused, where it exceeds that.
+  template <std::integral T>
+  T number_to(T most = std::numeric_limits<T>::max()) {
+    T value{};
+    (*this)(value);
+    if (value <= most) return value;
+    refuse();
+    return 0;
   }
-  std::int64_t ticks() {
-    std::int64_t value = 0;
-    source.number(value);
-    return value;
-  }
+
+  wire::ByteReader bytes_;
+  bool refused_ = false;
 };
 
-template <class Archive, class Point>
-void transfer_point(Archive& ar, Point& p) {
-  ar(p.x), ar(p.y);
-}
-template <class Archive, class Pose>
-void transfer_pose(Archive& ar, Pose& p) {
-  ar(p.x), ar(p.y), ar(p.heading);
-}
-template <class Archive, class Twist>
-void transfer_twist(Archive& ar, Twist& t) {
-  ar(t.v_mps), ar(t.w_radps);
-}
-
-/// All of a scan but its number of beams and their ranges.
 template <class Archive, class Scan>
-void transfer_scan_frame(Archive& ar, Scan& s) {
+void transfer_scan(Archive& ar, Scan& s) {
   ar(s.stamp), ar(s.sequence), ar(s.first_angle_rad), ar(s.angle_step_rad);
   ar(s.range_min_m), ar(s.range_max_m), ar(s.sweep), ar(s.period);
+  const std::uint32_t beams = ar.count(s.beam_count, kMaxBeams);
+  for (std::uint32_t i = 0; i < beams; ++i) ar(s.range_m[i]);
 }
 
-/// All of a fix but its number of movers.
 template <class Archive, class Fix>
-void transfer_fix_frame(Archive& ar, Fix& f) {
+void transfer_fix(Archive& ar, Fix& f) {
   ar(f.stamp), ar(f.sequence), ar(f.has_pose);
-  transfer_pose(ar, f.map_from_robot);
+  ar(f.map_from_robot.x), ar(f.map_from_robot.y), ar(f.map_from_robot.heading);
   ar(f.position_std_m), ar(f.heading_std_rad), ar(f.mover_std_m);
-}
-template <class Archive, class Mover>
-void transfer_mover(Archive& ar, Mover& m) {
-  ar(m.id);
-  transfer_point(ar, m.position_in_map);
-  ar(m.radius_m);
+  ar.size(f.movers);
+  for (auto& m : f.movers) ar(m.id), ar(m.position_in_map.x), ar(m.position_in_map.y), ar(m.radius_m);
 }
 
 /// Everything but scan and fix.
@@ -119,17 +142,16 @@ void transfer_rest(Archive& ar, Record& r) {
   ar(r.wheels.fault.kind), ar(r.wheels.fault.node), ar(r.wheels.fault.code);
   ar(r.wheels.stop), ar(r.wheels.ready);
   ar(r.input.stamp), ar(r.input.has_goal);
-  transfer_point(ar, r.input.goal_in_map);
-  ar(r.input.goal_tolerance_m);
+  ar(r.input.goal_in_map.x), ar(r.input.goal_in_map.y), ar(r.input.goal_tolerance_m);
   ar(r.input.goal_heading_rad), ar(r.input.goal_heading_tolerance_rad);
   ar(r.input.emergency_stop), ar(r.input.reset);
   ar(r.input.steers), ar(r.input.stick.forward), ar(r.input.stick.left);
   ar(r.pose.stamp);
-  transfer_pose(ar, r.pose.map_from_robot);
+  ar(r.pose.map_from_robot.x), ar(r.pose.map_from_robot.y), ar(r.pose.map_from_robot.heading);
   ar(r.pose.position_std_m), ar(r.pose.heading_std_rad);
   ar(r.plan_asked), ar(r.plan_sequence), ar(r.plan_stamp), ar(r.plan_status);
-  transfer_twist(ar, r.wanted);
-  transfer_twist(ar, r.verdict.permitted);
+  ar(r.wanted.v_mps), ar(r.wanted.w_radps);
+  ar(r.verdict.permitted.v_mps), ar(r.verdict.permitted.w_radps);
   ar(r.verdict.reasons), ar(r.verdict.gap_m);
   ar(r.command.stamp), ar(r.command.left_radps), ar(r.command.right_radps);
   ar(r.took), ar(r.latency.tick_s), ar(r.latency.drive_s);
@@ -158,57 +180,24 @@ class Bends {
 };
 
 void put_path(Put& put, const PlannedPath& path) {
-  put.count(path.points.size());
+  put.size(path.points);
   if (path.points.empty()) return;
   put(path.stamp);
   Bends x, y;
-  for (const PointMm& p : path.points) put.sink.small_number(x.bend(p.x)), put.sink.small_number(y.bend(p.y));
+  for (const PointMm& p : path.points) put.small_number(x.bend(p.x)), put.small_number(y.bend(p.y));
 }
 
 void get_path(Get& get, PlannedPath& path) {
-  path.points.clear();
   path.stamp = kNever;
-  const std::uint32_t points = get.count(kMaxPathPoints);
-  if (points > 0) get(path.stamp);
+  get.size(path.points);
+  if (!path.points.empty()) get(path.stamp);
   Bends x, y;
-  for (std::uint32_t i = 0; i < points; ++i) {
+  for (PointMm& p : path.points) {
     std::int64_t dx = 0, dy = 0;
-    get.source.small_number(dx), get.source.small_number(dy);
+    get.small_number(dx), get.small_number(dy);
     const std::int64_t at_x = x.place(dx), at_y = y.place(dy);
-    const PointMm p{static_cast<std::int32_t>(at_x), static_cast<std::int32_t>(at_y)};
-    if (p.x != at_x || p.y != at_y) return get.source.refuse();
-    static_cast<void>(path.points.push_back(p));  // count() keeps within its capacity
-  }
-}
-
-void put_scan(Put& put, const LaserScan& scan) {
-  transfer_scan_frame(put, scan);
-  const std::size_t beams = std::min<std::size_t>(scan.beam_count, kMaxBeams);
-  put.count(beams);
-  for (std::size_t i = 0; i < beams; ++i) put(scan.range_m[i]);
-}
-
-void get_scan(Get& get, LaserScan& scan) {
-  scan = LaserScan{};
-  transfer_scan_frame(get, scan);
-  scan.beam_count = get.count(kMaxBeams);
-  for (std::size_t i = 0; i < scan.beam_count; ++i) get(scan.range_m[i]);
-}
-
-void put_fix(Put& put, const OutsideFix& fix) {
-  transfer_fix_frame(put, fix);
-  put.count(fix.movers.size());
-  for (const ObservedMover& mover : fix.movers) transfer_mover(put, mover);
-}
-
-void get_fix(Get& get, OutsideFix& fix) {
-  fix = OutsideFix{};
-  transfer_fix_frame(get, fix);
-  const std::uint32_t movers = get.count(kMaxObservedMovers);
-  for (std::uint32_t i = 0; i < movers; ++i) {
-    ObservedMover mover;
-    transfer_mover(get, mover);
-    static_cast<void>(fix.movers.push_back(mover));  // count() keeps within its capacity
+    p = {static_cast<std::int32_t>(at_x), static_cast<std::int32_t>(at_y)};
+    if (p.x != at_x || p.y != at_y) return get.refuse();
   }
 }
 
@@ -216,28 +205,26 @@ void get_fix(Get& get, OutsideFix& fix) {
 void put_others(Put& put, const TickRecord& record, std::span<std::uint32_t> written, bool first) {
   if (record.other_scans.empty()) return;
   put(record.verdict.faulty_scanners);
-  put.count(record.other_scans.size());
+  put.size(record.other_scans);
   for (std::size_t k = 0; k < record.other_scans.size(); ++k) {
     const LaserScan& scan = record.other_scans[k];
     const bool is_new = first || scan.sequence != written[k];
     put(is_new);
-    if (is_new) put_scan(put, scan);
+    if (is_new) transfer_scan(put, scan);
     written[k] = scan.sequence;
   }
 }
 
 void get_others(Get& get, Verdict& verdict, OfOthers<LaserScan>& scans) {
   verdict.faulty_scanners = 0;
-  if (get.source.left() == 0) return scans.clear();
+  if (get.is_at_end()) return scans.clear();
   get(verdict.faulty_scanners);
-  const std::uint32_t count = get.count(scans.capacity());
-  if (count == 0) get.source.refuse();
-  while (scans.size() < count) (void)scans.push_back({});
-  scans.truncate(count);
-  for (std::size_t k = 0; k < count; ++k) {
+  get.size(scans);
+  if (scans.empty()) get.refuse();
+  for (std::size_t k = 0; k < scans.size(); ++k) {
     bool is_new = false;
     get(is_new);
-    if (is_new) get_scan(get, scans[k]);
+    if (is_new) transfer_scan(get, scans[k] = {});
     scans[k].scanner = static_cast<std::uint8_t>(k + 1);
   }
 }
@@ -248,37 +235,36 @@ std::size_t TickEncoder::encode(const TickRecord& record, std::uint64_t lost_bef
                                 std::span<unsigned char> out) noexcept {
   const bool new_scan = first_ || record.scan.sequence != scan_sequence_;
   const bool new_fix = first_ || record.fix.sequence != fix_sequence_;
-  Put put{ByteSink(out)};
+  Put put(out);
   put(lost_before);
   put(new_scan);
   put(new_fix);
   transfer_rest(put, record);
   put_path(put, record.path);
-  if (new_scan) put_scan(put, record.scan);
-  if (new_fix) put_fix(put, record.fix);
+  if (new_scan) transfer_scan(put, record.scan);
+  if (new_fix) transfer_fix(put, record.fix);
   put_others(put, record, others_, first_);
   first_ = false;
   scan_sequence_ = record.scan.sequence;
   fix_sequence_ = record.fix.sequence;
-  return put.sink.size();
+  return put.written();
 }
 
 bool TickDecoder::decode(std::span<const unsigned char> in, TickRecord& record, std::uint64_t& lost_before) noexcept {
-  Get get{ByteSource(in)};
-  bool new_scan = false;
-  bool new_fix = false;
+  Get get(in);
+  bool new_scan = false, new_fix = false;
   get(lost_before);
   get(new_scan);
   get(new_fix);
   transfer_rest(get, record);
   get_path(get, record.path);
-  if (new_scan) get_scan(get, scan_);
-  if (new_fix) get_fix(get, fix_);
+  if (new_scan) transfer_scan(get, scan_ = {});
+  if (new_fix) transfer_fix(get, fix_ = {});
   get_others(get, record.verdict, others_);
   record.scan = scan_;
   record.other_scans = others_;
   record.fix = fix_;
-  return get.source.ok() && get.source.left() == 0;
+  return get.ok() && get.is_at_end();
 }
 
 }  // namespace jaywalk

@@ -1,6 +1,6 @@
 #pragma once
-// All that crossed the HAL in one tick and what was made of it: the tick's only local state, and
-// enough to live through the tick again.
+// All that crossed the HAL in one tick and what was made of it: the tick's only local state, and enough to live through
+// the tick again.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>

@@ -5,29 +5,21 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <ctime>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <string_view>
 
+#include "firmware/recording/run_folders.h"
+#include "hal/shown_text.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk {
 namespace {
-
-std::string today() {
-  const std::time_t now = std::time(nullptr);
-  std::tm utc{};
-  ::gmtime_r(&now, &utc);
-  std::array<char, 32> text{};
-  const std::size_t length = std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &utc);
-  return {text.data(), length};
-}
 
 /// `text` takes the file's place in one step, and is on the disk by then: a power cut leaves the old or the new.
 void replace(const std::filesystem::path& path, const std::string& text) {
@@ -35,22 +27,14 @@ void replace(const std::filesystem::path& path, const std::string& text) {
                               folder = path.has_parent_path() ? path.parent_path() : ".";
   static_cast<void>(::unlink(beside.c_str()));  // a link that was put there is not followed
   const int file = ::open(beside.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
-  bool kept = file >= 0 && ::write(file, text.data(), text.size()) == static_cast<ssize_t>(text.size());
-  kept = file >= 0 && ::fsync(file) == 0 && kept;
+  bool kept = ::write(file, text.data(), text.size()) == static_cast<ssize_t>(text.size()) && ::fsync(file) == 0;
   kept = file >= 0 && ::close(file) == 0 && kept;
-  kept = kept && std::rename(beside.c_str(), path.c_str()) == 0;
-  if (!kept) {
+  if (!kept || std::rename(beside.c_str(), path.c_str()) != 0) {
     static_cast<void>(::unlink(beside.c_str()));
     throw StartupError(path.string() + ": cannot be written", "see to the folder's rights and the disk's room");
   }
-  const int entry = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (entry < 0) return;
-  static_cast<void>(::fsync(entry));
-  static_cast<void>(::close(entry));
-}
-
-std::string commission_it(const std::filesystem::path& robot) {
-  return "turn the wheels once: jaywalk commission " + robot.string();
+  const wire::FileDescriptor entry(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  static_cast<void>(::fsync(entry.get()));
 }
 
 constexpr std::string_view kSaid = "The drives are armed.\n";
@@ -80,13 +64,7 @@ std::string name_for(std::string robot) {
   return "jaywalk-" + robot + ".armed";
 }
 
-}  // namespace
-
-std::filesystem::path commissioned_path(const std::filesystem::path& robot) {
-  std::filesystem::path path = robot;
-  return path.replace_extension(".commissioned.json");
-}
-
+/// A number that another drive, scale, node, wheel, track, scanner or mount changes (FNV-1a, hexadecimal).
 std::string wiring_digest(const RobotFile& file) {
   const RobotModel& model = file.setup.model;
   std::vector<double> facts{static_cast<double>(file.drive.kind)};
@@ -96,9 +74,8 @@ std::string wiring_digest(const RobotFile& file) {
   for (std::size_t k = 0; k < file.lasers().size(); ++k) {
     const LaserModel& laser = model.lasers()[k];
     const Pose2& mount = laser.robot_from_laser;
-    for (const double fact : {static_cast<double>(file.lasers()[k].kind), mount.x, mount.y, mount.heading,
-                              laser.fov_rad, static_cast<double>(laser.beams)})
-      facts.push_back(fact);
+    facts.insert(facts.end(), {static_cast<double>(file.lasers()[k].kind), mount.x, mount.y, mount.heading,
+                               laser.fov_rad, static_cast<double>(laser.beams)});
   }
   std::uint64_t digest = 14695981039346656037ULL;
   for (const double fact : facts) {
@@ -106,15 +83,20 @@ std::string wiring_digest(const RobotFile& file) {
     std::snprintf(text, sizeof text, "%.9g;", fact);
     for (const char* c = text; *c != '\0'; ++c) digest = (digest ^ static_cast<std::uint8_t>(*c)) * 1099511628211ULL;
   }
-  char hex[20];
-  std::snprintf(hex, sizeof hex, "%016llx", static_cast<unsigned long long>(digest));
-  return hex;
+  return formatted("%016llx", static_cast<unsigned long long>(digest));
+}
+
+}  // namespace
+
+std::filesystem::path commissioned_path(const std::filesystem::path& robot) {
+  std::filesystem::path path = robot;
+  return path.replace_extension(".commissioned.json");
 }
 
 void write_commissioned(const std::filesystem::path& robot, const RobotFile& file,
                         const std::vector<CheckedPart>& checks) {
   nlohmann::ordered_json json;
-  json["date"] = today();
+  json["date"] = utc_text(std::chrono::system_clock::now(), "%Y-%m-%dT%H:%M:%SZ");
   json["wiring"] = wiring_digest(file);
   json["passed"] = std::all_of(checks.begin(), checks.end(), [](const CheckedPart& check) { return check.is_well; });
   for (const CheckedPart& check : checks)
@@ -127,7 +109,7 @@ void withdraw_commissioned(const std::filesystem::path& robot, const RobotFile& 
 }
 
 CommissioningRecord read_commissioned(const std::filesystem::path& robot, const RobotFile& file) {
-  const std::string again = "; " + commission_it(robot);
+  const std::string again = "; turn the wheels once: jaywalk commission " + robot.string();
   std::ifstream in(commissioned_path(robot));
   const nlohmann::json json = nlohmann::json::parse(in, nullptr, false);
   const auto text = [&json](const char* key) {

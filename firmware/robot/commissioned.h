@@ -21,9 +21,6 @@ struct CommissioningRecord {
 /// "mine.commissioned.json" for "mine.toml".
 [[nodiscard]] std::filesystem::path commissioned_path(const std::filesystem::path& robot);
 
-/// A number that another drive, scale, node, wheel, track, scanner or mount changes (FNV-1a, hexadecimal).
-[[nodiscard]] std::string wiring_digest(const RobotFile& file);
-
 /// The old record is replaced whole, or stays where the new one cannot be written. Throws StartupError there.
 void write_commissioned(const std::filesystem::path& robot, const RobotFile& file,
                         const std::vector<CheckedPart>& checks);

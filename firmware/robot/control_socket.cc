@@ -21,7 +21,7 @@
 namespace jaywalk {
 namespace {
 
-constexpr std::string_view kBlanks = " \t\r\n\v\f", kNow = "now";
+constexpr std::string_view kNow = "now";
 
 struct StopWord {
   std::string_view word;
@@ -33,19 +33,15 @@ constexpr std::array kStopWords{StopWord{"stop", StopWords::kStop}, StopWord{"ha
 
 char lower(char c) noexcept { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
-bool is_same(char said, char want) noexcept { return lower(said) == want; }
-
-bool begins_with(std::string_view line, std::string_view word) noexcept {
-  return line.size() >= word.size() &&
-         std::equal(word.begin(), word.end(), line.begin(), [](char want, char said) { return is_same(said, want); });
-}
+bool is_same(char a, char b) noexcept { return lower(a) == lower(b); }
 
 StopWords stop_in_line(std::string_view line) noexcept {
   const auto* const letter =
       std::find_if(line.begin(), line.end(), [](char c) { return lower(c) >= 'a' && lower(c) <= 'z'; });
   line.remove_prefix(static_cast<std::size_t>(letter - line.begin()));
-  const auto* const found = std::find_if(kStopWords.begin(), kStopWords.end(),
-                                         [line](const StopWord& row) { return begins_with(line, row.word); });
+  const auto* const found = std::find_if(kStopWords.begin(), kStopWords.end(), [line](const StopWord& row) {
+    return line.size() >= row.word.size() && std::equal(row.word.begin(), row.word.end(), line.begin(), is_same);
+  });
   if (found == kStopWords.end()) return StopWords::kNone;
   const bool now = std::search(line.begin(), line.end(), kNow.begin(), kNow.end(), is_same) != line.end();
   return now ? StopWords::kStopNow : found->means;
@@ -130,12 +126,6 @@ void say(int socket, std::string_view text) {
 }
 
 }  // namespace
-
-std::string_view trimmed(std::string_view line) noexcept {
-  const std::size_t begin = line.find_first_not_of(kBlanks);
-  if (begin == std::string_view::npos) return {};
-  return line.substr(begin, line.find_last_not_of(kBlanks) - begin + 1);
-}
 
 StopWords stop_in(std::string_view text) noexcept {
   StopWords found = StopWords::kNone;

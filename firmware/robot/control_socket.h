@@ -33,9 +33,6 @@ enum class StopWords : std::uint8_t { kNone, kStop, kStopNow };
 /// them. "emergency", "estop" and "e-stop", and "now" in the line, stop at once.
 [[nodiscard]] StopWords stop_in(std::string_view text) noexcept;
 
-/// Without the blanks, and the ends of lines, round it.
-[[nodiscard]] std::string_view trimmed(std::string_view line) noexcept;
-
 /// What a line is answered. What takes longer than a moment is a job: it runs in a thread of its own, and its return
 /// value is the answer.
 struct ControlReply {

@@ -19,13 +19,10 @@ constexpr std::uint16_t kArcosPort = 8101;
 constexpr std::uint32_t kArcosBaud = 9600;
 constexpr double kArcosCycle_s = 0.1;
 
-std::uint8_t read_node(TomlTable& table, const std::string& key) {
-  return static_cast<std::uint8_t>(table.integer(key));
-}
-
 /// Of the left drive and the right one.
 std::array<std::uint8_t, 2> read_nodes(TomlTable& table) {
-  const std::array nodes{read_node(table, "left_node"), read_node(table, "right_node")};
+  const std::array nodes{static_cast<std::uint8_t>(table.integer("left_node")),
+                         static_cast<std::uint8_t>(table.integer("right_node"))};
   require_distinct(table, {{"left_node", nodes[0]}, {"right_node", nodes[1]}});
   return nodes;
 }
@@ -65,8 +62,10 @@ StopLimits stop_limits_of(const RobotModel& model, Duration tick) {
   return stop_limits(model.limits.brake_mps2 / radius_m, kTolerance_mps / radius_m, tick, model.drive.times);
 }
 
-/// Refuses a loop of which two periods take longer than the longest timeout that a drive of this kind may have.
-void require_two_ticks_within(TomlTable& table, Duration tick, Duration most, const std::string& what) {
+/// Makes the shortest timeout, `least`, two of the loop's periods at least. Refuses a loop of which these take longer
+/// than the longest that a drive of this kind may have.
+void outlast_two_ticks(TomlTable& table, Duration tick, Duration most, const std::string& what, Duration& least) {
+  least = std::max(least, 2 * tick);
   if (2 * tick <= most) return;
   table.refuse("kind",
                "needs " + what + " of at most " + std::to_string(most / std::chrono::milliseconds(1)) +
@@ -139,12 +138,12 @@ arcos::BaseSetup read_arcos(TomlTable& table, const RobotModel& model, Duration 
   const double track_mm = 1000.0 * model.drive.track_width_m;
   const auto whole = [](double value) { return static_cast<std::int16_t>(std::fmin(std::ceil(value), kMost)); };
   arcos::BaseSetup base;
+  outlast_two_ticks(table, tick, base.watchdog_most, "a watchdog", base.watchdog_least);
   base.mm_per_rad = scaled(table, 1000.0 * model.drive.wheel_radius_m, model.drive);
   base.track_mm = track_mm;
   base.ticks_per_mm = static_cast<int>(table.integer("ticks_per_mm"));
   base.motion = {whole(ramp_mmps2), whole(2.0 * ramp_mmps2 / track_mm * kDegrees),
                  whole(1000.0 * model.limits.max_speed_mps), whole(kDegrees * model.limits.max_turn_radps)};
-  base.watchdog_least = std::max(base.watchdog_least, 2 * tick);
   base.stop = stop;
   base.allow_unproved = table.boolean("allow_unproved");
   base.tick = tick;
@@ -201,20 +200,17 @@ DriveWiring read_drive(TomlTable table, RobotModel& model, Duration tick) {
   model.drive.times = read_times(table, wiring.kind, tick);
   const StopLimits stop = stop_limits_of(model, tick);
   model.drive.track_width_m = table.number("track_width_m", model.drive.track_width_m);
-  const bool has_wheels = wiring.kind != DriveKind::kDds;  // of its own; a ROS 2 base has those of the model
   if (wiring.is_on_can()) wiring.can = read_interface(table);
-  wiring.wheel_radii_m = {model.drive.wheel_radius_m, model.drive.wheel_radius_m};
-  if (has_wheels) wiring.wheel_radii_m = read_radii(table, model.drive);
+  wiring.wheel_radii_m = {model.drive.wheel_radius_m, model.drive.wheel_radius_m};  // of a ROS 2 base, too
+  if (wiring.kind != DriveKind::kDds) wiring.wheel_radii_m = read_radii(table, model.drive);
   switch (wiring.kind) {
     case DriveKind::kCia402: wiring.cia402 = read_cia402(table, model, tick, stop); break;
     case DriveKind::kOdrive:
-      require_two_ticks_within(table, tick, wiring.odrive.watchdog_limit, "a watchdog");
-      wiring.odrive.watchdog_least = std::max(wiring.odrive.watchdog_least, 2 * tick);
+      outlast_two_ticks(table, tick, wiring.odrive.watchdog_limit, "a watchdog", wiring.odrive.watchdog_least);
       read_axes(table, "motor_turns_per_wheel_turn", model.drive, stop, wiring.odrive);
       break;
     case DriveKind::kVesc:
-      require_two_ticks_within(table, tick, wiring.vesc.timeout_most, "a timeout");
-      wiring.vesc.timeout_least = std::max(wiring.vesc.timeout_least, 2 * tick);
+      outlast_two_ticks(table, tick, wiring.vesc.timeout_most, "a timeout", wiring.vesc.timeout_least);
       read_axes(table, "electrical_turns_per_wheel_turn", model.drive, stop, wiring.vesc);
       break;
     case DriveKind::kDds:
@@ -222,7 +218,6 @@ DriveWiring read_drive(TomlTable table, RobotModel& model, Duration tick) {
       wiring.can = wiring.ros.command;
       break;
     case DriveKind::kPioneer:
-      require_two_ticks_within(table, tick, wiring.arcos.watchdog_most, "a watchdog");
       wiring.line = read_byte_wiring(table, "base", kArcosPort, kArcosBaud);
       wiring.can = name_of(wiring.line);
       wiring.arcos = read_arcos(table, model, tick, stop);

@@ -9,11 +9,13 @@ namespace jaywalk {
 
 OperatorControls::OperatorControls(const RobotFile& file, WiredDrive& drive, Clock& clock,
                                    OperatorDesk::RestartBus restart_bus)
-    : desk_(clock, {file.setup.goal_tolerance_m, file.goal_heading_tolerance_rad}, std::move(restart_bus), file.places,
-            {file.setup.zones, file.setup.model.footprint.inscribed_radius_m()}),
+    : desk_(clock,
+            {file.setup.goal_tolerance_m, file.goal_heading_tolerance_rad, file.places, file.setup.zones,
+             file.setup.model.footprint.inscribed_radius_m()},
+            std::move(restart_bus)),
       wiring_(file.panel) {
   if (wiring_) {
-    watch_.emplace(clock, wiring_->joystick);
+    watch_.emplace(clock, *wiring_);
     joystick_.emplace(desk_, *watch_, wiring_->needs_dead_man, file.setup.steering != StickUse::kNone);
   }
   gate_.emplace(joystick_ ? static_cast<OperatorPanel&>(*joystick_) : desk_, desk_.permission(), drive);
@@ -26,17 +28,16 @@ void OperatorControls::start(int priority) {
   watch_->start(priority);
 }
 
-void refuse_unrenewed(const panel::JoystickState& state, const PanelWiring& wiring) {
+void refuse_unrenewed(const panel::JoystickState& state, const panel::JoystickSetup& wiring) {
   if (!state.needs_renewal || !wiring.needs_dead_man) return;
-  throw StartupError(wiring.joystick.path + ": is on Bluetooth, whose link may die with the dead man held",
+  throw StartupError(wiring.path + ": is on Bluetooth, whose link may die with the dead man held",
                      "give [panel] dead_man_renew_s, 2 say, or use a cable");
 }
 
 OperatorInput ResetGate::latest() noexcept {
   OperatorInput input = panel_.latest();
   input.stick = permission_.admitted(input.stick);
-  const bool edge = input.reset && !reset_before_;
-  reset_before_ = input.reset;
+  const bool edge = !std::exchange(reset_before_, input.reset) && input.reset;
   if (input.emergency_stop) {
     permission_.revoke();
   } else if (edge && !turns_) {
@@ -56,9 +57,17 @@ constexpr Reason kEndedByReset = Reason::kBus | Reason::kDrive | Reason::kStopUn
 
 constexpr const char* kStillMoves = "refused: the robot still moves; try again when it stands\n";
 
+/// Without the blanks, and the ends of lines, round it.
+std::string_view trimmed(std::string_view line) noexcept {
+  constexpr std::string_view kBlanks = " \t\r\n\v\f";
+  const std::size_t begin = line.find_first_not_of(kBlanks);
+  if (begin == std::string_view::npos) return {};
+  return line.substr(begin, line.find_last_not_of(kBlanks) - begin + 1);
+}
+
 }  // namespace
 
-ControlReply OperatorDesk::reply_to(std::string_view line) {
+ControlReply OperatorDesk::reply_to(std::string_view line) try {
   line = trimmed(line);
   if (const StopWords stop = stop_in(line); stop != StopWords::kNone) return take_stop(stop == StopWords::kStopNow);
   if (line == "status") return describe(status());
@@ -66,6 +75,8 @@ ControlReply OperatorDesk::reply_to(std::string_view line) {
   if (line.starts_with("here ")) return take_place(line.substr(5));
   if (line == "reset") return take_reset();
   return "refused: not understood; say goto X Y [HEADING], here X Y HEADING, stop, reset or status\n";
+} catch (const StartupError& error) {
+  return std::string("refused: ") + error.what() + "\n";
 }
 
 std::string OperatorDesk::obey(std::string_view line) {
@@ -93,14 +104,9 @@ void OperatorDesk::wish(const Orders& orders) {
 }
 
 std::string OperatorDesk::take_goal(std::string_view words) {
-  Route route;
-  try {
-    route = read_route(words, places_);
-  } catch (const StartupError& error) {
-    return std::string("refused: ") + error.what() + "\n";
-  }
+  const Route route = read_route(words, rules_.places);
   for (const GoalOrder& order : route)
-    if (is_kept_out(closed_ground_.zones, order.position_in_map, closed_ground_.body_m + kZoneMargin_m))
+    if (is_kept_out(rules_.zones, order.position_in_map, rules_.body_m + kZoneMargin_m))
       return "refused: goto: " + words_of(order) + " lies in a keep-out zone or too near one; choose another place\n";
   const std::lock_guard lock(asking_);
   const RunStatus& status = statuses_.latest();
@@ -129,14 +135,9 @@ ControlReply OperatorDesk::take_place(std::string_view words) {
   constexpr std::string_view kForce = " --force";
   const bool forced = words.ends_with(kForce);
   if (forced) words.remove_suffix(kForce.size());
-  GoalOrder place;
-  try {
-    const Route route = read_route(words, places_);
-    place = route[0];
-    if (route.size() != 1 || std::isnan(place.heading_rad)) return "refused: here: say one place, and its heading\n";
-  } catch (const StartupError& error) {
-    return std::string("refused: ") + error.what() + "\n";
-  }
+  const Route route = read_route(words, rules_.places);
+  const GoalOrder& place = route[0];
+  if (route.size() != 1 || std::isnan(place.heading_rad)) return "refused: here: say one place, and its heading\n";
   const std::lock_guard lock(asking_);
   const RunStatus& status = statuses_.latest();
   if (!status.running) return "refused: the robot is not ready yet; try again\n";
@@ -147,31 +148,41 @@ ControlReply OperatorDesk::take_place(std::string_view words) {
   return ControlReply([this, order = wish_.number, under = status.revoked] { return answer_to_place(order, under); });
 }
 
+RunStatus OperatorDesk::await(Duration longest, const std::function<bool(const RunStatus&)>& holds) {
+  constexpr Duration kLook = std::chrono::milliseconds(20);
+  const Time limit = clock_.now() + longest;
+  RunStatus now = status();
+  for (; !holds(now) && clock_.now() < limit; now = status()) clock_.sleep_until(clock_.now() + kLook);
+  return now;
+}
+
 std::string OperatorDesk::answer_to_place(std::uint32_t order, std::uint32_t under) {
-  constexpr Duration kLongest = std::chrono::seconds(15), kLook = std::chrono::milliseconds(20);
-  for (const Time limit = clock_.now() + kLongest;; clock_.sleep_until(clock_.now() + kLook)) {
-    const RunStatus now = status();
-    if (now.place.number == order) return words_of(now.place);
-    if (now.revoked != under) return "refused: stopped anew meanwhile; say it again\n";
-    if (clock_.now() > limit) return "refused: the run gives no answer; see jaywalk status\n";
-  }
+  const RunStatus now = await(std::chrono::seconds(15), [=](const RunStatus& status) {
+    return status.place.number == order || status.revoked != under;
+  });
+  if (now.place.number == order) return words_of(now.place);
+  if (now.revoked != under) return "refused: stopped anew meanwhile; say it again\n";
+  return "refused: the run gives no answer; see jaywalk status\n";
 }
 
 ControlReply OperatorDesk::take_reset() {
   const std::lock_guard lock(asking_);
   const RunStatus& status = statuses_.latest();
-  if (is_stopping(status) && status.bus.state != CanState::kBusOff) return kStillMoves;
+  const bool is_off = status.bus.state == CanState::kBusOff;
+  if (is_stopping(status) && !is_off) return kStillMoves;
   if (!status.latched) return "nothing to reset\n";
-  if (status.bus.state != CanState::kBusOff && status.drive_is_silent)
-    return "refused: still drive: one says nothing; see to its cable and power, then jaywalk reset\n";
-  if (status.bus.state != CanState::kBusOff) return reset_at_rest(status);
   // First of all: off the bus nobody knows how fast the wheels are.
-  return ControlReply([this, before = wish_.stops] { return restart_bus_and_reset(before); });
+  if (is_off) return ControlReply([this, before = wish_.stops] { return restart_bus_and_reset(before); });
+  if (status.drive_is_silent)
+    return "refused: still drive: one says nothing; see to its cable and power, then jaywalk reset\n";
+  return reset_at_rest(status);
 }
 
 std::string OperatorDesk::restart_bus_and_reset(std::uint32_t stops) {
   if (const std::string complaint = restart_bus_(); !complaint.empty()) return "refused: " + complaint + "\n";
-  if (!bus_comes_back()) return "refused: bus-off, and nobody is heard on the bus after a restart; see to the wires\n";
+  const auto is_back = [](const RunStatus& status) { return status.bus.state != CanState::kBusOff; };
+  if (!is_back(await(std::chrono::seconds(1), is_back)))
+    return "refused: bus-off, and nobody is heard on the bus after a restart; see to the wires\n";
   const std::lock_guard lock(asking_);
   if (wish_.stops != stops) return "refused: stopped anew meanwhile; see to it, then jaywalk reset\n";
   return reset_at_rest(statuses_.latest());
@@ -189,13 +200,6 @@ std::string OperatorDesk::reset_at_rest(const RunStatus& status) {
   return "reset\n";
 }
 
-bool OperatorDesk::bus_comes_back() {
-  constexpr Duration kLongest = std::chrono::seconds(1), kLook = std::chrono::milliseconds(20);
-  const Time limit = clock_.now() + kLongest;
-  while (status().bus.state == CanState::kBusOff && clock_.now() < limit) clock_.sleep_until(clock_.now() + kLook);
-  return status().bus.state != CanState::kBusOff;
-}
-
 void OperatorDesk::close() {
   const std::lock_guard lock(asking_);
   closed_ = true;
@@ -207,8 +211,8 @@ OperatorInput OperatorDesk::latest() noexcept {
   const Wish& wish = wishes_.latest();
   const bool is_new = wish.number != seen_.number;
   input_.stamp = clock_.now();
-  input_.goal_tolerance_m = tolerances_.place_m;
-  input_.goal_heading_tolerance_rad = tolerances_.heading_rad;
+  input_.goal_tolerance_m = rules_.tolerance_m;
+  input_.goal_heading_tolerance_rad = rules_.heading_tolerance_rad;
   input_.stop_orders = wish.stops;
   input_.emergency_stop = wish.emergencies != seen_.emergencies;  // for one tick, as a reset
   if (wish.stops != seen_.stops) permission_.stop();

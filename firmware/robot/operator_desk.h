@@ -20,21 +20,16 @@
 
 namespace jaywalk {
 
-/// How near to a goal counts as there.
-struct GoalTolerances {
-  double place_m = OperatorInput{}.goal_tolerance_m;
-  double heading_rad = OperatorInput{}.goal_heading_tolerance_rad;
-};
-
-/// Where no goal may lie: in keep-out zones, and nearer to one than a body stands.
-struct ClosedGround {
-  std::vector<MapZone> zones;
+/// What a robot's file says of goals.
+struct GoalRules {
+  double tolerance_m = OperatorInput{}.goal_tolerance_m;
+  double heading_tolerance_rad = OperatorInput{}.goal_heading_tolerance_rad;
+  std::vector<NamedPlace> places{};
+  std::vector<MapZone> zones{};  ///< no goal lies in a keep-out zone, or nearer to one than a body of `body_m` stands
   double body_m = 0.0;
 };
 
-/// Where what people ask for through the control socket becomes the loop's operator panel, and the loop's status
-/// their answer.
-///
+/// Operator panel that turns orders from the control socket into the loop's input, and the loop's status into answers.
 /// Of a route it gives the loop one goal after the other, the next when one is reached.
 ///
 /// A stop is obeyed to rest, and no goal is taken before. A stop and a fault that is latched drop the goal
@@ -45,13 +40,8 @@ class OperatorDesk final : public OperatorPanel {
   /// Brings the drives' bus back from bus-off; what went wrong, or empty. Called in the asker's thread, may wait.
   using RestartBus = std::function<std::string()>;
 
-  OperatorDesk(Clock& clock, const GoalTolerances& tolerances, RestartBus restart_bus,
-               std::vector<NamedPlace> places = {}, ClosedGround closed_ground = {})
-      : clock_(clock),
-        tolerances_(tolerances),
-        restart_bus_(std::move(restart_bus)),
-        places_(std::move(places)),
-        closed_ground_(std::move(closed_ground)) {}
+  OperatorDesk(Clock& clock, GoalRules rules, RestartBus restart_bus)
+      : clock_(clock), rules_(std::move(rules)), restart_bus_(std::move(restart_bus)) {}
 
   /// Any thread: obeys one line (control_socket.h) at once. A reset at bus-off waits for the bus: that is the reply's
   /// job, to be run in a thread that may wait; it holds up no other line.
@@ -93,6 +83,7 @@ class OperatorDesk final : public OperatorPanel {
   [[nodiscard]] std::string goals_are_refused(const RunStatus& status) const;
   /// Loop's thread: the goal that is permitted, or none.
   void head_for_goal() noexcept;
+  /// These throw StartupError for words that are no place.
   [[nodiscard]] std::string take_goal(std::string_view words);
   /// It drops the goal: at rest only.
   [[nodiscard]] ControlReply take_place(std::string_view words);
@@ -103,14 +94,12 @@ class OperatorDesk final : public OperatorPanel {
   [[nodiscard]] std::string restart_bus_and_reset(std::uint32_t stops);
   /// Under the lock: presses reset for the loop.
   [[nodiscard]] std::string reset_at_rest(const RunStatus& status);
-  /// True when the loop says that the bus is well again, within a second.
-  [[nodiscard]] bool bus_comes_back();
+  /// In a thread that may wait: the status as soon as it `holds`, after `longest` at most.
+  [[nodiscard]] RunStatus await(Duration longest, const std::function<bool(const RunStatus&)>& holds);
 
   Clock& clock_;
-  GoalTolerances tolerances_;
+  GoalRules rules_;
   RestartBus restart_bus_;
-  std::vector<NamedPlace> places_;
-  ClosedGround closed_ground_;
   std::mutex asking_;  ///< never the loop's, and never held while something waits
   bool closed_ = false;
   Wish wish_;       ///< the askers'
@@ -171,13 +160,13 @@ class OperatorControls {
 
  private:
   OperatorDesk desk_;
-  std::optional<PanelWiring> wiring_;
+  std::optional<panel::JoystickSetup> wiring_;
   std::optional<panel::JoystickWatch> watch_;
   std::optional<panel::JoystickPanel> joystick_;
   std::optional<ResetGate> gate_;
 };
 
 /// Throws StartupError for a dead man that could stay held when its link has died.
-void refuse_unrenewed(const panel::JoystickState& state, const PanelWiring& wiring);
+void refuse_unrenewed(const panel::JoystickState& state, const panel::JoystickSetup& wiring);
 
 }  // namespace jaywalk

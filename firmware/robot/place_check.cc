@@ -8,11 +8,7 @@
 namespace jaywalk {
 namespace {
 
-/// A person's eye on a plan, as ToldPlace has it: within what the match puts right.
-constexpr double kEye_m = 0.13, kEye_rad = 0.1;
 constexpr double kWheelRolled_rad = 0.1;  ///< of a wheel: it does not stand
-
-std::string text_of_place(const Pose2& pose) { return formatted("%.2f,%.2f %.2f", pose.x, pose.y, pose.heading); }
 
 }  // namespace
 
@@ -21,38 +17,31 @@ std::string words_of(const PlaceAnswer& answer) {
   const std::string forced = "or here --force, which takes it unseen\n";
   if (answer.is_taken()) return "there\n";
   if (answer.why == Why::kMoved) return "refused: the robot moved meanwhile; try again when it stands\n";
-  const std::string better = answer.has_better ? text_of_place(answer.better) : "";
+  const Pose2& there = answer.better;
+  const std::string better = answer.has_better ? formatted("%.2f,%.2f %.2f", there.x, there.y, there.heading) : "";
   if (answer.why == Why::kElsewhere) return "refused: the scan fits much better at " + better + "; say that, " + forced;
   const std::string share = formatted("%.0f %% of it lies on walls", 100.0 * answer.fit);
   return std::string("refused: the scan does not fit there: ") + share + " of the map; " +
          (answer.has_better ? "it fits at " + better : "look again where the robot is") + ", " + forced;
 }
 
-void PlaceCheck::begin(const ToldPlaceOrder& order) noexcept {
-  order_ = order;
-  asked_ = true;
-  search_.give_up();
-}
-
-bool PlaceCheck::step(const TickRecord& t, const EvidenceMap& still) noexcept {
-  ended_ = false;
-  if (asked_) {
-    asked_ = false;
-    look(t, still);
-  } else if (search_.is_busy()) {
-    const bool rolled = std::fabs(t.wheels.left_rad - left_rad_) > kWheelRolled_rad ||
-                        std::fabs(t.wheels.right_rad - right_rad_) > kWheelRolled_rad;
-    if (rolled) {
-      search_.give_up();
-      end(PlaceAnswer::Why::kMoved);
-    } else if (search_.step(still)) {
-      decide();
-    }
+bool PlaceCheck::step(const std::optional<ToldPlaceOrder>& told, const TickRecord& t,
+                      const EvidenceMap& still) noexcept {
+  if (told) {
+    order_ = *told;
+    search_.give_up();
+    return look(t, still);
   }
-  return ended_;
+  if (!search_.is_busy()) return false;
+  if (std::fabs(t.wheels.left_rad - left_rad_) > kWheelRolled_rad ||
+      std::fabs(t.wheels.right_rad - right_rad_) > kWheelRolled_rad) {
+    search_.give_up();
+    return end(PlaceAnswer::Why::kMoved);
+  }
+  return search_.step(still) && decide();
 }
 
-void PlaceCheck::look(const TickRecord& t, const EvidenceMap& still) noexcept {
+bool PlaceCheck::look(const TickRecord& t, const EvidenceMap& still) noexcept {
   there_ = other_ = {};
   if (order_.forced) return end(PlaceAnswer::Why::kForced);
   left_rad_ = t.wheels.left_rad, right_rad_ = t.wheels.right_rad;
@@ -63,21 +52,24 @@ void PlaceCheck::look(const TickRecord& t, const EvidenceMap& still) noexcept {
     projection_.project(scan, mount, {}, points_);
     add_sample(points_, mount.position(), model_.lasers().size(), sample_);
   }
-  there_ = PlaceSearch::matched(sample_, still, order_.map_from_robot, kEye_m, kEye_rad);
-  other_ = PlaceSearch::matched(sample_, still, t.pose.map_from_robot, kEye_m, kEye_rad);
+  const auto matched = [&](const Pose2& near) {
+    return PlaceSearch::matched(sample_, still, near, ToldPlace::kEye_m, ToldPlace::kEye_rad);
+  };
+  there_ = matched(order_.map_from_robot);
+  other_ = matched(t.pose.map_from_robot);
   if (there_.says_nothing()) return end(other_.is_good() ? PlaceAnswer::Why::kElsewhere : PlaceAnswer::Why::kUnknown);
   search_.begin(sample_, order_.map_from_robot.position());
+  return false;
 }
 
-void PlaceCheck::decide() noexcept {
+bool PlaceCheck::decide() noexcept {
   using Why = PlaceAnswer::Why;
   if (search_.best().is_clearly_better_than(other_)) other_ = search_.best();
   if (!there_.fits()) return end(Why::kPoor);
-  end(other_.is_clearly_better_than(there_) ? Why::kElsewhere : Why::kFits);
+  return end(other_.is_clearly_better_than(there_) ? Why::kElsewhere : Why::kFits);
 }
 
-void PlaceCheck::end(PlaceAnswer::Why why) noexcept {
-  ended_ = true;
+bool PlaceCheck::end(PlaceAnswer::Why why) noexcept {
   const bool matched = why != PlaceAnswer::Why::kUnknown && why != PlaceAnswer::Why::kForced;
   answer_ = {.number = order_.number,
              .why = why,
@@ -85,6 +77,7 @@ void PlaceCheck::end(PlaceAnswer::Why why) noexcept {
              .fit = there_.fit(),
              .has_better = other_.is_good(),
              .better = other_.map_from_robot};
+  return true;
 }
 
 bool Permission::judge(Reason reasons) noexcept {

@@ -17,8 +17,10 @@ namespace jaywalk {
 /// localisation system outside it. Thread: the loop's.
 class ToldPlace final : public PoseSource {
  public:
-  // A person's eye on a plan; within what a scan matcher puts right (correlative_search.cc).
-  ToldPlace() noexcept { fix_.position_std_m = 0.13, fix_.heading_std_rad = 0.1; }
+  /// A person's eye on a plan; within what a scan matcher puts right (correlative_search.cc).
+  static constexpr double kEye_m = 0.13, kEye_rad = 0.1;
+
+  ToldPlace() noexcept { fix_.position_std_m = kEye_m, fix_.heading_std_rad = kEye_rad; }
 
   /// Said three times, in as many ticks: the localizer passes one fix over that is far from where it believes to be.
   void tell(const Pose2& map_from_robot) noexcept {
@@ -77,19 +79,19 @@ class PlaceCheck {
  public:
   explicit PlaceCheck(const RobotModel& model) : model_(model) {}
 
-  void begin(const ToldPlaceOrder& order) noexcept;
-  /// After each tick. True when the answer is there.
-  [[nodiscard]] bool step(const TickRecord& t, const EvidenceMap& still) noexcept;
+  /// After each tick; `told`: an order to check from now on. True when the answer is there.
+  [[nodiscard]] bool step(const std::optional<ToldPlaceOrder>& told, const TickRecord& t,
+                          const EvidenceMap& still) noexcept;
   [[nodiscard]] const PlaceAnswer& answer() const noexcept { return answer_; }
 
  private:
-  void look(const TickRecord& t, const EvidenceMap& still) noexcept;
-  void decide() noexcept;
-  void end(PlaceAnswer::Why why) noexcept;
+  // True when the answer is there.
+  bool look(const TickRecord& t, const EvidenceMap& still) noexcept;
+  bool decide() noexcept;
+  bool end(PlaceAnswer::Why why) noexcept;
 
   RobotModel model_;
   ToldPlaceOrder order_;
-  bool asked_ = false, ended_ = false;
   ScanProjection projection_;
   ScanPoints points_;
   SeenSample sample_;
@@ -108,9 +110,9 @@ struct Orders {
   bool forced = false;          ///< taken without a match
 };
 
-/// What people permitted and what of it still waits for its moment: the one owner of it, in one struct that every
-/// order, stop, fault and latch assigns anew, so that nothing given before them is left. A stop is obeyed to rest:
-/// until then nothing is given, and a stick counts from its middle on.
+/// Orders in force and those that wait for their moment: one struct that every order, stop, fault and latch assigns
+/// anew, so that nothing given before them is left. A stop is obeyed to rest: until then nothing is given, and a stick
+/// counts from its middle on.
 ///
 /// Orders come from other threads, which know the loop as it was a moment ago: those given before the last revocation
 /// are void, too. Thread: the loop's; never allocates, never waits.

@@ -95,36 +95,32 @@ std::string check_link(const std::string& can) {
   return "up, " + (link.kind.empty() ? std::string("can") : link.kind) + ", " + rate;
 }
 
-std::string check_joystick(const PanelWiring& panel, Clock& clock) {
-  require_joystick(panel);
-  panel::Joystick joystick(panel.joystick);
+std::string check_joystick(const panel::JoystickSetup& setup, Clock& clock) {
+  require_joystick(setup);
+  panel::Joystick joystick(setup);
   joystick.poll(clock.now());
   const panel::JoystickState state = joystick.state();
-  if (!state.connected)
-    throw StartupError(panel.joystick.path + ": is not there", "plug it in, or correct [panel] joystick");
-  refuse_unrenewed(state, panel);
-  if (state.stop) throw StartupError(panel.joystick.path + ": its stop is pressed, or not known", "release it");
-  return panel.joystick.path + ": connected, stop released";
+  if (!state.connected) throw StartupError(setup.path + ": is not there", "plug it in, or correct [panel] joystick");
+  refuse_unrenewed(state, setup);
+  if (state.stop) throw StartupError(setup.path + ": its stop is pressed, or not known", "release it");
+  return setup.path + ": connected, stop released";
 }
 
 /// Lists what each part says for itself.
-class Inspection {
- public:
-  explicit Inspection(const std::function<void(const std::string&)>& waits_for) : waits_for_(waits_for) {}
-  void look(const std::string& part, const std::function<std::string()>& at) {
-    if (waits_for_) waits_for_(part);
-    try {
-      parts_.push_back({part, true, at()});
-    } catch (const StartupError& error) {
-      parts_.push_back({part, false, error.what()});
-    }
-  }
-  [[nodiscard]] bool last_is_well() const { return parts_.back().is_well; }
-  [[nodiscard]] std::vector<CheckedPart> parts() && { return std::move(parts_); }
+struct Inspection {
+  const std::function<void(const std::string&)>& waits_for;
+  std::vector<CheckedPart> parts{};
 
- private:
-  const std::function<void(const std::string&)>& waits_for_;
-  std::vector<CheckedPart> parts_;
+  /// Returns whether the part is well.
+  bool look(const std::string& part, const std::function<std::string()>& at) {
+    if (waits_for) waits_for(part);
+    try {
+      parts.push_back({part, true, at()});
+    } catch (const StartupError& error) {
+      parts.push_back({part, false, error.what()});
+    }
+    return parts.back().is_well;
+  }
 };
 
 std::string check_drive(const DriveWiring& wiring, std::size_t side, Clock& clock) {
@@ -152,9 +148,8 @@ std::string sectors_on_body(const StopZone& zone, const LaserScan& scan) {
     const double first_deg = scan.angle_rad(beam) * kDegPerRad - step_deg;
     while (beam + 1 < scan.beam_count && zone.is_on_body(scan, beam + 1)) ++beam;
     const double last_deg = scan.angle_rad(beam) * kDegPerRad + step_deg;
-    const std::string sector = formatted(" [[laser.blanked]] from_deg = %.1f, to_deg = %.1f",
-                                         std::min(first_deg, last_deg), std::max(first_deg, last_deg));
-    sectors += sector;
+    sectors += formatted(" [[laser.blanked]] from_deg = %.1f, to_deg = %.1f", std::min(first_deg, last_deg),
+                         std::max(first_deg, last_deg));
   }
   return sectors;
 }
@@ -184,13 +179,13 @@ void require_sight(const std::string& said, const LaserScan& scan, const LaserMo
 
 }  // namespace
 
-void require_joystick(const PanelWiring& panel) {
-  const std::string& path = panel.joystick.path;
+void require_joystick(const panel::JoystickSetup& setup) {
+  const std::string& path = setup.path;
   const char* const remedy = "give an evdev device (/dev/input/by-id/...-event-joystick), and join the group input";
   if (!std::filesystem::exists(path)) return;
   const wire::FileDescriptor device(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
   if (device.get() < 0) throw StartupError(path + ": is no joystick that this user may read", remedy);
-  const std::string lacks = panel::lacking(panel::keys_of(device.get()), panel.joystick);
+  const std::string lacks = panel::lacking(panel::keys_of(device.get()), setup);
   if (lacks.empty()) return;
   const bool has_others = lacks.rfind("has no ", 0) == 0;
   throw StartupError(path + ": " + lacks, has_others ? "press it and read its number: evtest " + path : remedy);
@@ -198,16 +193,14 @@ void require_joystick(const PanelWiring& panel) {
 
 std::vector<CheckedPart> preflight(const RobotFile& file, const std::filesystem::path& control_socket, Clock& clock,
                                    const std::function<void(const std::string&)>& waits_for) {
-  Inspection inspection(waits_for);
+  Inspection inspection{waits_for};
   inspection.look("clock", check_clock);
   inspection.look("priority", [&] { return check_realtime(file.realtime); });
   inspection.look("memory", [&] { return check_memory(file.realtime); });
-  inspection.look("control socket", [&] { return check_socket(control_socket); });
-  if (!inspection.last_is_well() && a_run_listens(control_socket)) return std::move(inspection).parts();
+  const bool has_socket = inspection.look("control socket", [&] { return check_socket(control_socket); });
+  if (!has_socket && a_run_listens(control_socket)) return inspection.parts;
   inspection.look("planner", [&] { return tried_backend(file.setup.backend, file.setup.device); });
-  const bool is_on_can = file.drive.is_on_can();
-  if (is_on_can) inspection.look(file.drive.can, [&] { return check_link(file.drive.can); });
-  if (!is_on_can || inspection.last_is_well()) {
+  if (!file.drive.is_on_can() || inspection.look(file.drive.can, [&] { return check_link(file.drive.can); })) {
     inspection.look("left drive", [&] { return check_drive(file.drive, 0, clock); });
     inspection.look("right drive", [&] { return check_drive(file.drive, 1, clock); });
   }
@@ -216,7 +209,7 @@ std::vector<CheckedPart> preflight(const RobotFile& file, const std::filesystem:
     inspection.look(name.empty() ? "scanner" : name + " scanner", [&] { return check_scanner(file, clock, k); });
   }
   if (file.panel) inspection.look("joystick", [&] { return check_joystick(*file.panel, clock); });
-  return std::move(inspection).parts();
+  return inspection.parts;
 }
 
 std::string check_scanner(const RobotFile& file, Clock& clock, std::size_t scanner) {
@@ -228,9 +221,7 @@ std::string check_scanner(const RobotFile& file, Clock& clock, std::size_t scann
   LaserScan scan = laser->latest();
   blank(model.blanked, scan);
   const double rate_hz = (scan.sequence - before) / to_seconds(kRateSpan);
-  const std::string figures =
-      formatted(": %u beams, %.0f scans a second", static_cast<unsigned>(scan.beam_count), rate_hz);
-  const std::string said = laser->name() + figures;
+  const std::string said = laser->name() + formatted(": %u beams, %.0f scans a second", scan.beam_count, rate_hz);
   require_free_body(said, scan, file.setup.model.footprint, model.robot_from_laser);
   require_sight(said, scan, model);
   require_rate(said, rate_hz, model.rate_hz);

@@ -24,12 +24,12 @@ struct CheckedPart {
 
 /// Throws StartupError for a device that is there and is no joystick, or has not the buttons and the stick that the
 /// file counts on.
-void require_joystick(const PanelWiring& panel);
+void require_joystick(const panel::JoystickSetup& setup);
 
-/// Looks at all that a run needs: clock, real-time rights, memory, planner (a trial
-/// of its GPU), control socket, CAN interface, both drives, scanner,
-/// joystick. Nothing moves, no setting of a device is changed but what makes a scanner send. Where a run has the robot
-/// already, that is said and its devices are left alone. Takes some seconds: `waits_for` is told of each part before.
+/// Looks at all that a run needs: clock, real-time rights, memory, planner (a trial of its GPU), control socket, CAN
+/// interface, both drives, scanner, joystick. Nothing moves, no setting of a device is changed but what makes a scanner
+/// send. Where a run has the robot already, that is said and its devices are left alone. Takes some seconds:
+/// `waits_for` is told of each part before.
 [[nodiscard]] std::vector<CheckedPart> preflight(const RobotFile& file, const std::filesystem::path& control_socket,
                                                  Clock& clock,
                                                  const std::function<void(const std::string&)>& waits_for = {});

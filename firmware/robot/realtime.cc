@@ -77,12 +77,6 @@ PageFaults page_faults() noexcept {
   return {static_cast<std::uint64_t>(used.ru_minflt), static_cast<std::uint64_t>(used.ru_majflt)};
 }
 
-Time SteadyClock::now() noexcept {
-  timespec now{};
-  ::clock_gettime(CLOCK_MONOTONIC, &now);
-  return Time{std::chrono::seconds(now.tv_sec) + std::chrono::nanoseconds(now.tv_nsec)};
-}
-
 void SteadyClock::sleep_until(Time wake) noexcept {
   const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(wake.time_since_epoch());
   const timespec until{.tv_sec = seconds.count(), .tv_nsec = (wake.time_since_epoch() - seconds).count()};

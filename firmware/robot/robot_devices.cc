@@ -13,24 +13,18 @@ namespace {
 
 constexpr const char* kStartNodes = "start the robot's ROS 2 nodes, and jaywalk_dds with this file and their domain";
 
+/// `bus`: of make_bus(), or the same socket once more.
 std::unique_ptr<EmergencyBrake> make_brake(const DriveWiring& wiring, CanBus& bus) {
-  if (wiring.kind == DriveKind::kPioneer) return std::make_unique<arcos::Stopper>(bus);
+  if (wiring.kind == DriveKind::kDds) return std::make_unique<ros::Stopper>(static_cast<ros::RosBus&>(bus));
   const std::array nodes{wiring.axes()[0].node, wiring.axes()[1].node};
   std::vector<CanFrame> frames;
+  if (wiring.kind == DriveKind::kPioneer) frames = arcos::stop_frames();
   if (wiring.kind == DriveKind::kCia402) frames = canopen::quick_stop_frames(nodes);
   for (const std::uint8_t node : nodes) {
     if (wiring.kind == DriveKind::kOdrive) frames.push_back(odrive::set_velocity(node, 0.0F));
     if (wiring.kind == DriveKind::kVesc) frames.push_back(vesc::set_erpm(node, 0));
   }
   return std::make_unique<FrameBrake>(bus, frames);
-}
-
-std::unique_ptr<ros::RosBus> make_ros_bus(const ros::BaseSetup& base, Clock& clock) {
-  return std::make_unique<ros::RosBus>(ros::RosBus::Rings{ring_path(base.odometry), ring_path(base.command)}, clock);
-}
-
-std::unique_ptr<ByteBus> make_line(const ByteWiring& line, Clock& clock) {
-  return std::make_unique<ByteBus>(wire::make_byte_link(line.host, line.port, line.device, line.baud), clock);
 }
 
 /// Throws where a scan's fan is not the file's, by half a step and more: a wrong step bends all that is seen. A turn's
@@ -43,9 +37,9 @@ void require_fan(ScannerConnection& laser, const LaserModel& model) {
   const double off_rad = std::fabs(swept_rad - model.fov_rad);
   const bool same = off_rad < least_off_rad || (turns && std::fabs(model.fov_rad - 2.0 * kPi) < least_off_rad);
   if (scan.beam_count == model.beams && same) return;
-  const std::string differs = formatted(": scans of %u beams over %.1f degrees, and the file says %u over %.1f",
-                                        static_cast<unsigned>(scan.beam_count), swept_rad * 180.0 / kPi,
-                                        static_cast<unsigned>(model.beams), model.fov_rad * 180.0 / kPi);
+  const std::string differs =
+      formatted(": scans of %u beams over %.1f degrees, and the file says %u over %.1f", scan.beam_count,
+                swept_rad * 180.0 / kPi, static_cast<unsigned>(model.beams), model.fov_rad * 180.0 / kPi);
   throw StartupError(laser.name() + differs, "correct [laser] beams and fov_deg");
 }
 
@@ -72,10 +66,17 @@ std::unique_ptr<ScannerConnection> make_laser(const RobotFile& file, Clock& cloc
                       clock);
 }
 
-std::unique_ptr<CanBus> make_bus(const DriveWiring& wiring, Clock& clock) {
-  if (wiring.kind == DriveKind::kDds) return make_ros_bus(wiring.ros, clock);
-  if (wiring.kind == DriveKind::kPioneer) return make_line(wiring.line, clock);
-  return std::make_unique<SocketCan>(open_can(wiring.can, filters_for(wiring)), clock);
+std::unique_ptr<CanBus> make_bus(const DriveWiring& wiring, Clock& clock, bool deaf) {
+  if (wiring.kind == DriveKind::kDds) {
+    const ros::RosBus::Rings rings{ring_path(wiring.ros.odometry), ring_path(wiring.ros.command)};
+    return std::make_unique<ros::RosBus>(rings, clock);
+  }
+  if (wiring.kind == DriveKind::kPioneer) {
+    const ByteWiring& line = wiring.line;
+    return std::make_unique<ByteBus>(wire::make_byte_link(line.host, line.port, line.device, line.baud), clock);
+  }
+  return std::make_unique<SocketCan>(open_can(wiring.can, deaf ? std::vector<CanFilter>{} : filters_for(wiring)),
+                                     clock);
 }
 
 std::unique_ptr<WiredDrive> make_drive(const DriveWiring& wiring, CanBus& bus, Clock& clock) {
@@ -105,16 +106,11 @@ RobotDevices::RobotDevices(const RobotFile& file, Clock& clock)
     : file_(file),
       clock_(clock),
       lock_(file.drive.can),
-      can_(file.drive.is_on_can() ? std::make_unique<SocketCan>(open_can(file.drive.can, {}), clock) : nullptr),
-      ros_(file.drive.kind == DriveKind::kDds ? make_ros_bus(file.drive.ros, clock) : nullptr),
-      line_(file.drive.kind == DriveKind::kPioneer ? make_line(file.drive.line, clock) : nullptr),
-      brake_can_(can_ ? std::make_unique<SocketCan>(can_->second(), clock) : nullptr),
-      bus_(can_   ? static_cast<CanBus&>(*can_)
-           : ros_ ? static_cast<CanBus&>(*ros_)
-                  : *line_),
-      drive_(make_drive(file.drive, bus_, clock)) {
-  if (ros_) brake_ = std::make_unique<ros::Stopper>(*ros_);
-  if (!ros_) brake_ = make_brake(file.drive, can_ ? *brake_can_ : bus_);
+      bus_(make_bus(file.drive, clock, true)),
+      can_(dynamic_cast<SocketCan*>(bus_.get())),
+      brake_can_(can_ != nullptr ? std::make_unique<SocketCan>(can_->second(), clock) : nullptr),
+      drive_(make_drive(file.drive, *bus_, clock)),
+      brake_(make_brake(file.drive, can_ != nullptr ? *brake_can_ : *bus_)) {
   for (std::size_t k = 0; k < file.lasers().size(); ++k) lasers_.push_back(make_laser(file, clock, k));
 }
 
@@ -126,7 +122,7 @@ OfOthers<LaserScanner*> RobotDevices::other_lasers() noexcept {
 
 void RobotDevices::start() {
   for (std::size_t k = 0; k < lasers_.size(); ++k) await_first_scan(*lasers_[k], file_, clock_, k);
-  if (can_) can_->listen(filters_for(file_.drive));
+  if (can_ != nullptr) can_->listen(filters_for(file_.drive));
 }
 
 void await_first_scan(ScannerConnection& laser, const RobotFile& file, Clock& clock, std::size_t scanner) {

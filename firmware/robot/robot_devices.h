@@ -27,7 +27,7 @@ class RobotDevices {
   [[nodiscard]] std::span<const std::unique_ptr<ScannerConnection>> lasers() const noexcept { return lasers_; }
   [[nodiscard]] WiredDrive& drive() noexcept { return *drive_; }
   [[nodiscard]] EmergencyBrake& brake() noexcept { return *brake_; }
-  [[nodiscard]] const CanBus& bus() const noexcept { return bus_; }
+  [[nodiscard]] const CanBus& bus() const noexcept { return *bus_; }
 
   /// Start-up only, when all else is ready: starts each scanner and waits for its first scan, then listens to the
   /// drives, which are to be armed at once: some speak without being asked, and nobody would fetch it. Throws
@@ -38,20 +38,19 @@ class RobotDevices {
   const RobotFile& file_;
   Clock& clock_;
   BusLock lock_;
-  std::unique_ptr<SocketCan> can_;     ///< null: not on CAN
-  std::unique_ptr<ros::RosBus> ros_;   ///< in its place
-  std::unique_ptr<ByteBus> line_;      ///< in theirs
+  std::unique_ptr<CanBus> bus_;
+  SocketCan* can_;                     ///< the same bus; null: not on CAN
   std::unique_ptr<CanBus> brake_can_;  ///< the same kernel socket: what the guard sends is not another master's
-  CanBus& bus_;
   std::vector<std::unique_ptr<ScannerConnection>> lasers_;
   std::unique_ptr<WiredDrive> drive_;
   std::unique_ptr<EmergencyBrake> brake_;
 };
 
-/// Not started yet, not armed yet. `bus` and `clock` outlive them. Throw StartupError.
+/// Not started yet, not armed yet. `bus` and `clock` outlive them; a `deaf` CAN bus hears nothing before it is told to
+/// listen. Throw StartupError.
 [[nodiscard]] std::unique_ptr<ScannerConnection> make_laser(const RobotFile& file, Clock& clock,
                                                             std::size_t scanner = 0);
-[[nodiscard]] std::unique_ptr<CanBus> make_bus(const DriveWiring& wiring, Clock& clock);
+[[nodiscard]] std::unique_ptr<CanBus> make_bus(const DriveWiring& wiring, Clock& clock, bool deaf = false);
 [[nodiscard]] std::unique_ptr<WiredDrive> make_drive(const DriveWiring& wiring, CanBus& bus, Clock& clock);
 
 /// Start-up only: starts the scanner and waits for its first scan. Throws StartupError where none comes in time, or

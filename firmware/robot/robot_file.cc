@@ -59,20 +59,6 @@ Rows other_scanner_keys() {
                                   "how long to wait for it at start")});
 }
 
-Rows panel_keys() {
-  const PanelWiring panel;
-  return section_keys(
-      "panel",
-      {key_row("joystick", kText, kNeeded, "the evdev device; gone, or not there: emergency stop"),
-       key_row("needs_dead_man", kBoolean, panel.needs_dead_man, "the robot drives only while its button is held"),
-       number_row("dead_man_renew_s", {0.0, 60.0}, "s", to_seconds(panel.joystick.dead_man_renew),
-                  "so long after the newest event the dead man counts as released; 0: never; needed on Bluetooth"),
-       choice_row("steering", "none",
-                  "what the stick is for; shared: the robot steers clear and stops; by_hand: the supervisor alone "
-                  "stops it",
-                  {"none", "shared", "by_hand"})});
-}
-
 Rows drive_keys() {
   // The choices are in the order of DriveKind.
   return section_keys(
@@ -97,23 +83,24 @@ Rows axis_keys(const std::string& kind, double left_node, const char* scale, con
                        whole_row("right_node", kNodes, "", left_node + 1.0, "the right drive's")});
 }
 
-/// Of a base that reports at its own rate.
-Rows report_keys(const std::string& kind, const Otherwise& period) {
-  return section_keys("drive:" + kind,
-                      {number_row("report_ms", {1.0, 250.0}, "ms", period, "between two of its reports"),
-                       number_row("report_late_ms", {0.0, 200.0}, "ms", 1e3 * DriveTimes{}.late_s,
-                                  "so much later than its turn a report may come")});
+// Rows of a base that reports at its own rate.
+
+SettingKey report_row(const Otherwise& period) {
+  return number_row("report_ms", {1.0, 250.0}, "ms", period, "between two of its reports");
 }
 
-Rows topic_keys() {
-  return section_keys("drive:dds", {key_row("odometry", kText, "/odom", "its nav_msgs/Odometry"),
-                                    key_row("command", kText, "/cmd_vel", "where it takes commands")});
+SettingKey late_row() {
+  return number_row("report_late_ms", {0.0, 200.0}, "ms", 1e3 * DriveTimes{}.late_s,
+                    "so much later than its turn a report may come");
 }
 
 Rows ros_keys() {
   const ros::BaseSetup base;
-  return section_keys("drive:dds", {key_row("stamped", kBoolean, base.stamped, "as TwistStamped"),
-                                    key_row("reliable", kBoolean, base.reliable, "lost odometry is sent again")});
+  return section_keys(
+      "drive:dds", {key_row("odometry", kText, "/odom", "its nav_msgs/Odometry"),
+                    key_row("command", kText, "/cmd_vel", "where it takes commands"), report_row("the loop's period"),
+                    late_row(), key_row("stamped", kBoolean, base.stamped, "as TwistStamped"),
+                    key_row("reliable", kBoolean, base.reliable, "lost odometry is sent again")});
 }
 
 Rows pioneer_keys() {
@@ -122,13 +109,54 @@ Rows pioneer_keys() {
                        whole_row("baud", {9600.0, 115200.0}, "bit/s", kMakers, "its HostBaud"),
                        key_row("host", kText, kNeeded, kHost), whole_row("port", kPorts, "", kMakers, "TCP port: 8101"),
                        whole_row("ticks_per_mm", {1.0, 65535.0}, "", kNeeded,
-                                 "its TicksMM: encoder counts a millimetre, 128 of a P3-DX")});
+                                 "its TicksMM: encoder counts a millimetre, 128 of a P3-DX"),
+                       report_row(100.0), late_row()});
 }
 
 Rows place_keys() {
   return section_keys("places",
                       {key_row("name", kText, kNeeded, "begins with a letter; letters, digits, _ and -"),
                        key_row("at", kNumbers, kNeeded, "[x, y] or [x, y, heading] in the map", "m, m, rad")});
+}
+
+const BoundKeys<LaserWiring>& dds_laser_keys() {
+  static const BoundKeys<LaserWiring> keys(
+      "laser:dds", {key_row("topic", kText, "/scan", "its sensor_msgs/LaserScan, by jaywalk_dds"),
+                    boolean_row("reliable", &LaserWiring::reliable, "lost scans are sent again"),
+                    boolean_row("infinity_is_free", &LaserWiring::infinity_is_free,
+                                "infinity is free room (REP 117); rplidar_ros means errors, too")});
+  return keys;
+}
+
+const BoundKeys<panel::JoystickSetup>& panel_keys() {
+  using panel::JoystickSetup;
+  static const BoundKeys<JoystickSetup> keys(
+      "panel",
+      {key_row("joystick", kText, kNeeded, "the evdev device; gone, or not there: emergency stop"),
+       boolean_row("needs_dead_man", &JoystickSetup::needs_dead_man, "the robot drives only while its button is held"),
+       number_row("dead_man_renew_s", {0.0, 60.0}, "s", to_seconds(JoystickSetup{}.dead_man_renew),
+                  "so long after the newest event the dead man counts as released; 0: never; needed on Bluetooth"),
+       choice_row("steering", "none",
+                  "what the stick is for; shared: the robot steers clear and stops; by_hand: the supervisor alone "
+                  "stops it",
+                  {"none", "shared", "by_hand"}),
+       whole_row("dead_man_button", &JoystickSetup::dead_man, kButtons, "",
+                 "number of linux/input-event-codes.h: the left shoulder"),
+       whole_row("stop_button", &JoystickSetup::stop, kButtons, "", "emergency stop"),
+       boolean_row("stop_opens", &JoystickSetup::stop_opens, "the stop is a contact that opens; not known means stop"),
+       whole_row("reset_button", &JoystickSetup::reset, kButtons, "", "reset, at rest")});
+  return keys;
+}
+
+const BoundKeys<RealtimeWishes>& realtime_keys() {
+  static const BoundKeys<RealtimeWishes> keys(
+      "realtime", {whole_row("priority", &RealtimeWishes::priority, {0.0, 98.0}, "",
+                             "of SCHED_FIFO, for the loop; 0: an ordinary thread"),
+                   boolean_row("lock_memory", &RealtimeWishes::lock_memory, "nothing of the program is paged out"),
+                   boolean_row("required", &RealtimeWishes::required,
+                               "false: a run starts although the kernel refuses some of this"),
+                   whole_row("cpu", {0.0, 1023.0}, "", "any", "a processor for the loop alone (boot with isolcpus)")});
+  return keys;
 }
 
 LaserWiring read_wiring(TomlTable& table) {
@@ -161,26 +189,23 @@ RealtimeWishes read_realtime(TomlTable table) {
   return wishes;
 }
 
-PanelWiring read_panel(TomlTable table, StickUse& steering) {
-  PanelWiring panel;
-  panel::JoystickSetup& joystick = panel.joystick;
+panel::JoystickSetup read_panel(TomlTable table, StickUse& steering) {
+  panel::JoystickSetup joystick;
   joystick.path = table.text("joystick");
-  panel.needs_dead_man = table.boolean("needs_dead_man");
+  panel_keys().read(table, joystick);
   joystick.asks_device = true;
-  joystick.needs_dead_man = panel.needs_dead_man;
   joystick.dead_man_renew = duration_from_seconds(table.number("dead_man_renew_s"));
-  if (joystick.dead_man_renew > Duration{0} && !panel.needs_dead_man)
+  if (joystick.dead_man_renew > Duration{0} && !joystick.needs_dead_man)
     table.refuse("dead_man_renew_s", "has no dead man to renew", "set needs_dead_man = true, or leave it out");
   if (table.has("steering")) steering = static_cast<StickUse>(table.choice("steering"));  // in the enumeration's order
-  if (steering != StickUse::kNone && !panel.needs_dead_man)
+  if (steering != StickUse::kNone && !joystick.needs_dead_man)
     table.refuse("steering", "has no dead man", "set needs_dead_man = true, or steering = \"none\"");
   joystick.steers = steering != StickUse::kNone;
-  button_keys().read(table, joystick);
   require_distinct(
       table,
       {{"dead_man_button", joystick.dead_man}, {"stop_button", joystick.stop}, {"reset_button", joystick.reset}});
   table.finish();
-  return panel;
+  return joystick;
 }
 
 void read_map(TomlTable table, ControlSetup& setup) {
@@ -207,38 +232,6 @@ NamedPlace read_place(TomlTable& table, const std::vector<NamedPlace>& before, c
 
 }  // namespace
 
-const BoundKeys<LaserWiring>& dds_laser_keys() {
-  static const BoundKeys<LaserWiring> keys(
-      "laser:dds", {key_row("topic", kText, "/scan", "its sensor_msgs/LaserScan, by jaywalk_dds"),
-                    boolean_row("reliable", &LaserWiring::reliable, "lost scans are sent again"),
-                    boolean_row("infinity_is_free", &LaserWiring::infinity_is_free,
-                                "infinity is free room (REP 117); rplidar_ros means errors, too")});
-  return keys;
-}
-
-const BoundKeys<panel::JoystickSetup>& button_keys() {
-  using panel::JoystickSetup;
-  static const BoundKeys<JoystickSetup> keys(
-      "panel",
-      {whole_row("dead_man_button", &JoystickSetup::dead_man, kButtons, "",
-                 "number of linux/input-event-codes.h: the left shoulder"),
-       whole_row("stop_button", &JoystickSetup::stop, kButtons, "", "emergency stop"),
-       boolean_row("stop_opens", &JoystickSetup::stop_opens, "the stop is a contact that opens; not known means stop"),
-       whole_row("reset_button", &JoystickSetup::reset, kButtons, "", "reset, at rest")});
-  return keys;
-}
-
-const BoundKeys<RealtimeWishes>& realtime_keys() {
-  static const BoundKeys<RealtimeWishes> keys(
-      "realtime", {whole_row("priority", &RealtimeWishes::priority, {0.0, 98.0}, "",
-                             "of SCHED_FIFO, for the loop; 0: an ordinary thread"),
-                   boolean_row("lock_memory", &RealtimeWishes::lock_memory, "nothing of the program is paged out"),
-                   boolean_row("required", &RealtimeWishes::required,
-                               "false: a run starts although the kernel refuses some of this"),
-                   whole_row("cpu", {0.0, 1023.0}, "", "any", "a processor for the loop alone (boot with isolcpus)")});
-  return keys;
-}
-
 const BoundKeys<canopen::DriveSettings>& canopen_keys() {
   using canopen::DriveSettings;
   static const BoundKeys<DriveSettings> keys(
@@ -253,26 +246,13 @@ const BoundKeys<canopen::DriveSettings>& canopen_keys() {
 
 const FileKeys& robot_file_keys() {
   static const FileKeys keys = file_keys(
-      "Robot file", {top_keys(),
-                     first_scanner_keys(),
-                     dds_laser_keys().keys(),
-                     other_scanner_keys(),
-                     laser_keys("laser"),
-                     drive_keys(),
+      "Robot file", {top_keys(), first_scanner_keys(), dds_laser_keys().keys(), other_scanner_keys(),
+                     laser_keys("laser"), drive_keys(),
                      axis_keys("cia402", 2.0, "counts_per_wheel_turn",
                                "encoder counts a turn of the wheel, gear included", {12.0, 1e8}),
                      axis_keys("odrive", 1.0, "motor_turns_per_wheel_turn", "the gear", {0.1, 1000.0}),
                      axis_keys("vesc", 1.0, "electrical_turns_per_wheel_turn", "gear times pole pairs", {1.0, 1e5}),
-                     canopen_keys().keys(),
-                     topic_keys(),
-                     report_keys("dds", "the loop's period"),
-                     ros_keys(),
-                     pioneer_keys(),
-                     report_keys("pioneer", 100.0),
-                     panel_keys(),
-                     button_keys().keys(),
-                     place_keys(),
-                     zone_keys(),
+                     canopen_keys().keys(), ros_keys(), pioneer_keys(), panel_keys().keys(), place_keys(), zone_keys(),
                      realtime_keys().keys()});
   return keys;
 }

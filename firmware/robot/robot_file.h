@@ -28,11 +28,6 @@ struct LaserWiring : ByteWiring {
   Duration first_scan_limit = std::chrono::seconds(10);  ///< at start; a scanner may still be waking up
 };
 
-struct PanelWiring {
-  panel::JoystickSetup joystick;
-  bool needs_dead_man = true;  ///< the robot drives only while its button is held
-};
-
 struct RobotFile {
   ControlSetup setup;        ///< start pose: where the robot stands when the program starts
   bool knows_start = false;  ///< the file says where; with a map and without it the first scan is looked for on the map
@@ -41,7 +36,7 @@ struct RobotFile {
   std::vector<LaserWiring> other_lasers;  ///< as many as the model has beside the first
   DriveWiring drive;
   RealtimeWishes realtime;
-  std::optional<PanelWiring> panel;
+  std::optional<panel::JoystickSetup> panel;
   std::vector<NamedPlace> places;        ///< where `goto NAME` leads
   std::filesystem::path control_socket;  ///< empty: the default
 
@@ -53,19 +48,13 @@ struct RobotFile {
 
 /// Refuses what no robot is, and what would blind it (SAFETY 28): each number is in its range, but they do not go
 /// together. `nominal`: the drive as the model has it. Throws StartupError "PLACE: key: cause; remedy".
-///
-/// What no figure tells: whether a wheel's radius, a gear or a mount is off by what another robot of the kind might
-/// have. Commissioning measures those.
+/// A wheel's radius, a gear or a mount that another robot of the kind might have passes: commissioning measures those.
 void require_plausible(const RobotFile& robot, const DriveModel& nominal, const std::string& place);
 
 /// The keys of ROBOT.toml.
 [[nodiscard]] const FileKeys& robot_file_keys();
 
-// Those of its keys that are a struct's members.
-
-[[nodiscard]] const BoundKeys<LaserWiring>& dds_laser_keys();
-[[nodiscard]] const BoundKeys<panel::JoystickSetup>& button_keys();
-[[nodiscard]] const BoundKeys<RealtimeWishes>& realtime_keys();
+/// Those of CiA 402 drives that are members of their settings.
 [[nodiscard]] const BoundKeys<canopen::DriveSettings>& canopen_keys();
 
 // Numbers of ROBOT.toml that may not be one: nodes on a bus, buttons.

@@ -16,9 +16,6 @@ constexpr Duration kLongestRamp = std::chrono::seconds(5), kLongestDisarming = s
 
 }  // namespace
 
-StallGuard::StallGuard(EmergencyBrake& brake, Clock& clock, Duration limit) noexcept
-    : brake_(brake), clock_(clock), limit_(limit) {}
-
 StallGuard::~StallGuard() {
   ending_ = true;
   if (thread_.joinable()) thread_.join();
@@ -112,7 +109,10 @@ void RobotLoop::tick(Time due) noexcept {
   const Time began = clock_.now();
   guard_.beat(began);
   const TickRecord& t = runner_.tick_at(due);
-  devices_.resets.note_turning(speed_mps(t.wheels, t.now) > kAtRest_mps);
+  status_.speed_mps = speed_mps(t.wheels, t.now);
+  devices_.resets.note_turning(status_.speed_mps > kAtRest_mps);
+  if (place_check_.step(desk_.place_to_check(), t, runner_.loop().tracker().still()))
+    desk_.answer_place(status_.place = place_check_.answer());
   tell(t);
   trace(t);
   observer_.after_tick(t, runner_.loop());
@@ -138,7 +138,6 @@ double RobotLoop::speed_mps(const WheelState& wheels, Time now) const noexcept {
 void RobotLoop::tell(const TickRecord& t) noexcept {
   status_.running = true;
   status_.map_from_robot = t.pose.map_from_robot;
-  status_.speed_mps = speed_mps(t.wheels, t.now);
   status_.at_rest = !(status_.speed_mps > kAtRest_mps) && t.command.left_radps == 0.0 && t.command.right_radps == 0.0;
   status_.enabled = devices_.drive.is_enabled();
   status_.proved = devices_.drive.is_proved();
@@ -169,16 +168,8 @@ void RobotLoop::tell(const TickRecord& t) noexcept {
   status_.bus = devices_.bus.health();
   status_.ticks = ticks() + 1;
   status_.stalls = guard_.stalls();
-  check_place(t);
   desk_.tell(status_);
   ticks_.store(status_.ticks, std::memory_order_release);  // after the desk was told: a run is ready then
-}
-
-void RobotLoop::check_place(const TickRecord& t) noexcept {
-  if (const std::optional<ToldPlaceOrder> told = desk_.place_to_check()) place_check_.begin(*told);
-  if (!place_check_.step(t, runner_.loop().tracker().still())) return;
-  status_.place = place_check_.answer();
-  desk_.answer_place(status_.place);
 }
 
 /// Where the report cannot follow, its tables lack a tick; the recording has it.

@@ -13,6 +13,7 @@
 #include "drivers/laser/scanner_connection.h"
 #include "drivers/wired_drive.h"
 #include "firmware/control_loop.h"
+#include "firmware/recording/recorder.h"
 #include "firmware/robot/operator_desk.h"
 #include "firmware/robot/realtime.h"
 #include "firmware/robot/service_manager.h"
@@ -26,7 +27,8 @@ namespace jaywalk {
 class StallGuard {
  public:
   /// Both outlive it. The brake is used by the guard's thread alone.
-  StallGuard(EmergencyBrake& brake, Clock& clock, Duration limit) noexcept;
+  StallGuard(EmergencyBrake& brake, Clock& clock, Duration limit) noexcept
+      : brake_(brake), clock_(clock), limit_(limit) {}
   ~StallGuard();
 
   /// Starts the thread, with a priority of SCHED_FIFO (0: an ordinary one).
@@ -93,8 +95,7 @@ class RobotLoop {
   /// So far; any thread.
   [[nodiscard]] std::uint64_t ticks() const noexcept { return ticks_.load(std::memory_order_acquire); }
 
-  /// The tick that is due at `due`, now: what the loop's thread does when it wakes. By hand where no thread was
-  /// started.
+  /// The tick that is due at `due`, now: for the loop's thread, or by hand where none was started.
   void tick(Time due) noexcept;
 
   [[nodiscard]] Traces& traces() noexcept { return traces_; }
@@ -108,8 +109,6 @@ class RobotLoop {
   void note_times(Time began) noexcept;
   [[nodiscard]] Time next_due(Time due) noexcept;
   void tell(const TickRecord& t) noexcept;
-  /// Holds a told place against the map.
-  void check_place(const TickRecord& t) noexcept;
   void trace(const TickRecord& t) noexcept;
   void disarm(Time due) noexcept;
   /// Of the faster wheel; NaN where its feedback is too old to tell.

@@ -270,11 +270,8 @@ void BeamFilter::filter(LaserScan& scan, const WheelState& wheels) noexcept {
 
 /// Pose of the laser at its scan before, in its frame at this one; none where the wheels do not tell.
 Pose2 BeamFilter::now_from_before(Time stamp) noexcept {
-  Rolled rolled;
-  const bool known = travel_.expected_at(stamp, rolled);
-  const Pose2 moved = known && rolled_known_ ? arc_of(rolled - rolled_, track_width_m_) : Pose2{};
-  rolled_ = rolled;
-  rolled_known_ = known;
+  const std::optional<Rolled> before = std::exchange(rolled_, travel_.expected_at(stamp));
+  const Pose2 moved = before && rolled_ ? arc_of(*rolled_ - *before, track_width_m_) : Pose2{};
   return inverse(inverse(robot_from_laser_) * moved * robot_from_laser_);
 }
 

@@ -13,13 +13,11 @@ namespace jaywalk {
 /// Filter of a scanner's claim that nothing is within reach (SAFETY 29): a free beam counts as unknown where it
 /// contradicts the scans before.
 ///
-/// A dead diode, a cover or a mirror reports "no echo" as open ground does. Each surface that a beam hit is expected
-/// again where the wheels say that it must show. Between two hits, surfaces that turn free from one scan to the next
-/// have vanished; a pedestrian uncovers at most their own way of what they hid, and is then seen beside it. More than
-/// that is a fault of the scanner: its beams there are doubted until each has hit something in two scans. A scanner
-/// without any hit for kSilent is doubted as a whole: indoors something is within reach.
-///
-/// Doubted beams are unknown to stop zone, tracker and map. Thread: the loop's; memory is fixed.
+/// A dead diode, a cover or a mirror reports "no echo" as open ground does. Surfaces that turn free from one scan to
+/// the next, where the wheels say that they must show, have vanished; a pedestrian uncovers at most their own way of
+/// what they hid, and is then seen beside it. More than that is a fault: the beams there are doubted until each has hit
+/// something in two scans; all of them where none hits for kSilent, for indoors something is within reach. Thread: the
+/// loop's; memory is fixed.
 class FreeClaims {
  public:
   /// Judges a new scan. `now_from_before`: pose of the laser at the scan before, in its frame at this one.
@@ -30,7 +28,6 @@ class FreeClaims {
   static constexpr Duration kSilent = std::chrono::seconds(2);
 
  private:
-  /// Surface that a beam is expected to hit.
   struct Surface {
     Vec2 in_laser{};
     Time seen = kNever;  ///< kNever: none
@@ -50,7 +47,6 @@ class FreeClaims {
   void add(const LaserScan& scan, std::size_t beam, Vanished& vanished) const noexcept;
   [[nodiscard]] bool has_failed(const LaserScan& scan, const Vanished& vanished) const noexcept;
   [[nodiscard]] double moved_m(std::size_t beam, double range_m) const noexcept;
-  /// Whether a surface beside it has moved since the scan before.
   [[nodiscard]] bool moves_beside(const LaserScan& scan, const Vanished& vanished) const noexcept;
   void doubt(const LaserScan& scan, const Vanished& vanished) noexcept;
   void believe_hits(const LaserScan& scan) noexcept;
@@ -67,8 +63,7 @@ class FreeClaims {
   std::array<Doubt, kMaxBeams> doubt_{};
 };
 
-/// Raindrops, snow, dust: returns that neither neighbours nor earlier scans repeat, and which are therefore no
-/// obstacle.
+/// Raindrops, snow, dust: returns that neither neighbours nor earlier scans repeat are no obstacle.
 ///
 /// A body of 2 cm or more is believed at once, by the beams that it fills; the stop zone's 70 mm always are (SAFETY 8).
 /// A thinner body is believed with the third scan that has it at the same place in the world, by the wheels' motion.
@@ -78,7 +73,6 @@ class LoneReturns {
   /// Judges a new scan. `now_from_before`: pose of the laser at the scan before, in its frame at this one. Cost: some
   /// ten steps for each beam.
   void take(const LaserScan& scan, const Pose2& now_from_before) noexcept;
-  /// Marks the lone returns of the scan that was taken last.
   void strike_out(LaserScan& scan) const noexcept;
 
  private:
@@ -97,10 +91,8 @@ class LoneReturns {
 };
 
 /// Filter of one scanner's beams before anything uses them: hits on the robot itself, lone returns and doubted free
-/// beams prove nothing.
-///
-/// The wheels tell how the scanner moved between its scans; without them only hits on the robot are taken out. A scan
-/// that was filtered before is left as it is, so that recordings replay. Thread: the loop's; memory is fixed.
+/// beams prove nothing. Without wheels only hits on the robot are taken out. A scan that was filtered before stays as
+/// it is, so that recordings replay. Thread: the loop's; memory is fixed.
 class BeamFilter {
  public:
   BeamFilter(const RobotModel& model, std::size_t scanner, bool has_wheels = true);
@@ -117,8 +109,7 @@ class BeamFilter {
   bool has_wheels_;
   WheelTravel travel_;
   std::uint32_t sequence_ = 0;
-  Rolled rolled_;  ///< at the scan before
-  bool rolled_known_ = false;
+  std::optional<Rolled> rolled_;  ///< at the scan before
   LoneReturns lone_returns_;
   FreeClaims free_claims_;
 };

@@ -134,24 +134,19 @@ bool SightLoss::is_lost(const BeamCounts& counts, Time now) noexcept {
 }
 
 Watch::Watch(const Footprint& footprint, const OfEach<Pose2>& robot_from_lasers, double margin_m)
-    : footprint_(footprint), lookout_(robot_from_lasers), margin_m_(margin_m) {
-  const double front = footprint.front_m, rear = -footprint.rear_m, half = footprint.half_width_m;
+    : lookout_(robot_from_lasers),
+      margin_m_(margin_m),
+      held_free_{footprint.front_m + margin_m, footprint.rear_m + margin_m, footprint.half_width_m + margin_m} {
   const auto along = [this](Vec2 from, Vec2 to, Vec2 outward) {
     const int pieces = static_cast<int>(distance(from, to) / kPiece_m) + 1;
     for (int k = 1; k < pieces; ++k) rim_.push_back({from + (to - from) * (static_cast<double>(k) / pieces), outward});
   };
-  const Vec2 corners[4] = {{front, half}, {rear, half}, {rear, -half}, {front, -half}};
+  const std::array<Vec2, 4> corners = corners_of(footprint);
   const Vec2 normals[4] = {{0.0, 1.0}, {-1.0, 0.0}, {0.0, -1.0}, {1.0, 0.0}};  // of the side that begins there
   for (std::size_t k = 0; k < 4; ++k) {
     rim_.push_back({corners[k], normals[k] + normals[(k + 3) % 4]});
     along(corners[k], corners[(k + 1) % 4], normals[k]);
   }
-}
-
-/// Whether a place lies within what the robot keeps free round itself.
-bool Watch::held_free(Vec2 place) const noexcept {
-  return place.x <= footprint_.front_m + margin_m_ && place.x >= -footprint_.rear_m - margin_m_ &&
-         std::fabs(place.y) <= footprint_.half_width_m + margin_m_;
 }
 
 double Watch::unwatched_mps(const OfEach<BlindGaps>& gaps, const Twist2& twist, const SweptPath& path) const noexcept {
@@ -171,20 +166,19 @@ double Watch::unwatched_mps(const OfEach<BlindGaps>& gaps, const Twist2& twist, 
 
 double Watch::way_to_lost_m(const OfEach<BlindGaps>& gaps, const Twist2& twist, const SweptPath& path,
                             double margin_m) const noexcept {
-  constexpr double kNever_m = std::numeric_limits<double>::infinity();
-  double nearest_m = kNever_m;
+  double nearest_m = kInfinity_m;
   for (const BlindGaps& of : gaps) nearest_m = std::min(nearest_m, of.nearest_lost_m());
-  if (nearest_m == kNever_m) return kNever_m;
+  if (nearest_m == kInfinity_m) return kInfinity_m;
   std::size_t first = path.steps() + 1;
   for (const RimPoint& rim : rim_) {
     if (outward_mps(rim, velocity(twist, rim.on_body)) <= 0.0) continue;
     const Vec2 grown = rim.on_body + rim.outward * margin_m;
     for (std::size_t k = 1; k < first; ++k) {
       const Vec2 place = path.place_of(k, grown);
-      if (!held_free(place) && lookout_.at(gaps, place) == Coverage::kLost) first = k;
+      if (held_free_.distance_to(place) > 0.0 && lookout_.at(gaps, place) == Coverage::kLost) first = k;
     }
   }
-  return first > path.steps() ? kNever_m : static_cast<double>(first - 1) * SweptPath::kStep_m;
+  return first > path.steps() ? kInfinity_m : static_cast<double>(first - 1) * SweptPath::kStep_m;
 }
 
 }  // namespace jaywalk

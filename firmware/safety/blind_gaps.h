@@ -48,7 +48,6 @@ class BlindGaps {
     if (!all_round_ && beam == (step > 0 ? beams_ - 1 : 0)) return beams_;
     return step > 0 ? (beam + 1) % beams_ : (beam + beams_ - 1) % beams_;
   }
-  /// Whether there is such a beam, and it is not blanked.
   [[nodiscard]] bool looks(std::size_t beam) const noexcept { return beam < beams_ && !blanked_[beam]; }
 
  private:
@@ -76,15 +75,13 @@ class BlindGaps {
   double nearest_lost_m_ = 0.0;
 };
 
-/// What the scans of all scanners say of places in the robot's frame: what one of them proves is proven, and what one
-/// should look at and does not is lost, unless another proves it. Thread: the loop's; allocates in the constructor
-/// alone.
+/// What the scans of all scanners say of places in the robot's frame: the best that one of them says. Thread: the
+/// loop's; allocates in the constructor alone.
 class Lookout {
  public:
   explicit Lookout(const OfEach<Pose2>& robot_from_lasers) {
     for (const Pose2& mount : robot_from_lasers) laser_from_robot_.emplace_back(inverse(mount));
   }
-  /// `gaps`: of each scanner.
   [[nodiscard]] Coverage at(const OfEach<BlindGaps>& gaps, Vec2 place) const noexcept;
 
  private:
@@ -102,10 +99,8 @@ class SightLoss {
   Time lost_ahead_since_ = kNever;
 };
 
-/// Where the body goes without the scan having proved that it is free.
-///
-/// It follows points all along the footprint's outline, grown by a margin, over the way that the robot needs to stop;
-/// only those count that their motion pushes outward. Thread: the loop's; allocates in the constructor alone.
+/// Where the body goes without the scan having proved that it is free: points along the footprint's outline, grown by a
+/// margin, that their motion pushes outward. Thread: the loop's; allocates in the constructor alone.
 class Watch {
  public:
   /// `margin_m`: the most that is kept free round the footprint.
@@ -134,11 +129,10 @@ class Watch {
   [[nodiscard]] static double outward_mps(const RimPoint& rim, Vec2 moves) noexcept {
     return std::max(moves.x * rim.outward.x, moves.y * rim.outward.y);
   }
-  [[nodiscard]] bool held_free(Vec2 place) const noexcept;
 
-  Footprint footprint_;
   Lookout lookout_;
   double margin_m_;
+  Footprint held_free_;  ///< the footprint grown by the margin
   std::vector<RimPoint> rim_;
 };
 

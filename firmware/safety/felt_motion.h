@@ -12,15 +12,13 @@ namespace jaywalk {
 /// Compares each wheel's feedback with what it was commanded, through a model of the drive (SAFETY 18 and 33).
 ///
 /// A sound drive has obeyed a command after at most DriveTimes::obeyed_within_s(), and changes its speed by at least
-/// limits.brake_mps2 until then. So its speed lies between a slowest and a fastest that follow the least and the
-/// greatest command of that time, the slow way with that ramp. What it is outside by more than kOff_mps and kOffShare
-/// of the bound is summed up (Page 1954, CUSUM); kFault_m is disobedience: reversed, stuck, or turning without a
-/// command. Speeds and ways are the rim's. A wheel that stands though commanded 0.2 m/s is told within 0.5 s.
+/// limits.brake_mps2 until then: its speed lies between bounds that follow the least and the greatest command of that
+/// time. What it is outside by more than kOff_mps and kOffShare of the bound is summed up (Page 1954, CUSUM); kFault_m
+/// is disobedience. Speeds and ways are the rim's. A wheel that stands though commanded 0.2 m/s is told within 0.5 s.
 ///
-/// A wheel's angle is held against its speed in the same way, up to kApart_m and what the robot at its
-/// fastest drives while a report may be late: counters that stand while speeds go on, and speeds that stand while
-/// counters do, are disobedience as well. Every report counts, however long after the one before: times that are told
-/// wrong for one of them are told wrong the other way for the next, so that their sum is not. Thread: the loop's.
+/// A wheel's angle is held against its speed in the same way, up to kApart_m and what the robot at its fastest drives
+/// while a report may be late. Every report counts, however long after the one before: times that are told wrong for
+/// one of them are told wrong the other way for the next, so that their sum is not. Thread: the loop's.
 class FeltMotion {
  public:
   static constexpr double kOff_mps = 0.02;
@@ -72,14 +70,11 @@ class FeltMotion {
 ///
 /// Wheels that stand say nothing of a robot that is lifted, pushed aside or turned by hand (SAFETY 30). Each scan since
 /// they stopped is matched to the first (ScanPair). The robot was moved where another place explains the scans and
-/// standing does not: by the logarithm of their likelihoods' ratio without the sectors that say most, which people or a
-/// door may be. It was moved out of sight where neither explains them: most of what is still in view is not where it
-/// stood, and flat surfaces stand where nothing was. What something nearer hides tells nothing. Three scans in a row
-/// decide.
+/// standing does not, without the sectors that say most, which people or a door may be; out of sight where neither
+/// does. Three scans in a row decide.
 ///
-/// Shorter than a hand and less than a scanner shakes in its mount is no move. The wheels' angles tell rest, not their
-/// speeds: the first scan is kept over a silence of the drives, and over counters that restart. Thread: the loop's.
-/// Memory is fixed.
+/// The wheels' angles tell rest, not their speeds: the first scan is kept over a silence of the drives, and over
+/// counters that restart. Thread: the loop's; memory is fixed.
 class RestWatch {
  public:
   enum class Says : std::uint8_t {
@@ -108,7 +103,6 @@ class RestWatch {
   void find(const LaserScan& scan) noexcept;
   /// Agreement of the first scan's points with the newest scan and of the newest one's with the first, summed.
   [[nodiscard]] Agreement agreement(const LaserScan& scan, const Pose2& first_from_now) const noexcept;
-  /// True where the found place explains the scans better than the place of rest.
   [[nodiscard]] bool is_likelier(const LaserScan& scan) const noexcept;
 
   double wheel_radius_m_;

@@ -15,7 +15,6 @@ namespace jaywalk {
 /// a scanner that is broken, covered or blinded.
 [[nodiscard]] bool is_trustworthy(const LaserScan& scan, const LaserModel& laser) noexcept;
 
-/// Whether angles and speeds of the wheels are numbers.
 [[nodiscard]] bool is_trustworthy(const WheelState& wheels) noexcept;
 
 /// Whether what is stamped so is older at `now` than `limit`, or was never seen. A stamp more than 0.1 s ahead of now
@@ -66,16 +65,8 @@ inline constexpr double kScanPeriods = 1.5, kOldestScanPeriods = 2.5, kLongestSw
          control_and_drive_s(tick, model.drive.times, {kMostTick_s, most_drive_s(model.drive.times)});
 }
 
-/// What a scan says it took, within reason.
 [[nodiscard]] inline Duration sweep_of(const LaserScan& scan, double rate_hz) noexcept {
   return std::clamp(scan.sweep, Duration{0}, duration_from_seconds(kLongestSweepPeriods / rate_hz));
-}
-
-/// The age (s) of its first beam that the stop zone reckons with: as old as a scan usually becomes before the next is
-/// there, and as old as it is where that one was lost.
-[[nodiscard]] inline double reckoned_age_s(const LaserScan& scan, Time now, double rate_hz) noexcept {
-  const double usual_s = kScanPeriods / rate_hz + to_seconds(sweep_of(scan, rate_hz));
-  return scan.stamp == kNever ? usual_s : std::max(usual_s, to_seconds(now - scan.stamp));
 }
 
 /// SAFETY 7's t_scan + t_control + t_drive (s), as the stop zone reckons with them now; of the scanner that is longest.
@@ -83,8 +74,12 @@ inline constexpr double kScanPeriods = 1.5, kOldestScanPeriods = 2.5, kLongestSw
                                        const MeasuredLatency& measured) noexcept {
   const OfEach<LaserModel> lasers = model.lasers();
   double oldest_s = 0.0;
-  for (std::size_t k = 0; k < lasers.size(); ++k)
-    oldest_s = std::max(oldest_s, reckoned_age_s(scans[k], now, lasers[k].rate_hz));
+  for (std::size_t k = 0; k < lasers.size(); ++k) {
+    // Of its first beam: as old as a scan usually becomes before the next is there, and older where that one was lost.
+    const double rate_hz = lasers[k].rate_hz,
+                 usual_s = kScanPeriods / rate_hz + to_seconds(sweep_of(scans[k], rate_hz));
+    oldest_s = std::max({oldest_s, usual_s, scans[k].stamp == kNever ? usual_s : to_seconds(now - scans[k].stamp)});
+  }
   return oldest_s + control_and_drive_s(tick, model.drive.times, measured);
 }
 

@@ -63,13 +63,14 @@ Reason MotionModel::judge(const LaserScan& scan, const WheelState& wheels, const
 }
 
 bool MotionModel::look(const LaserScan& scan) noexcept {
-  Rolled rolled;
-  if (!travel_.at(scan.stamp, rolled)) return false;
+  const std::optional<Rolled> read = travel_.at(scan.stamp);
+  if (!read) return false;
+  const Rolled& rolled = *read;
   note_repeats(scan, rolled);
   if (repeats_ > 0) return false;  // it tells nothing new: kScanFrozen, a fault that ends with it, is its word
   pair_.sweep(scan, travel_.twist_since(scan.stamp, rolled));
   const Rolled felt = rolled - kept_rolled_;
-  const double path_m = std::max(std::fabs(felt.left_m), std::fabs(felt.right_m));
+  const double path_m = farther_m(felt);
   const double turn_rad = std::fabs(felt.right_m - felt.left_m) / drive_.track_width_m;
   const bool too_old = !pair_.is_kept() || scan.stamp - kept_stamp_ > kOldestKept || scan.stamp < kept_stamp_;
   const bool compares = !too_old && (path_m >= kLeast_m || turn_rad >= kLeast_rad);
@@ -86,8 +87,7 @@ void MotionModel::note_repeats(const LaserScan& scan, const Rolled& rolled) noex
   const bool repeats = pair_.repeated(scan) >= kRepeated;
   if (!repeats) at_first_ = rolled;
   repeats_ = repeats ? std::min(repeats_ + 1, kRepeats) : 0;
-  frozen_ = repeats_ >= kRepeats && std::max(std::fabs(rolled.left_m - at_first_.left_m),
-                                             std::fabs(rolled.right_m - at_first_.right_m)) > kRepeatedFor_m;
+  frozen_ = repeats_ >= kRepeats && farther_m(rolled - at_first_) > kRepeatedFor_m;
 }
 
 void MotionModel::keep(const LaserScan& scan, const Rolled& rolled) noexcept {
@@ -142,7 +142,6 @@ void MotionModel::compare(const LaserScan& scan, const Rolled& felt) noexcept {
   times_ = contradicts ? std::min(times_ + 1, kTimes) : 0;
 }
 
-/// Sectors that kBlind_rad takes.
 std::size_t MotionModel::arc() const noexcept {
   return static_cast<std::size_t>(std::ceil(kBlind_rad / pair_.sector_rad()));
 }
@@ -179,22 +178,14 @@ ScanPair::Fit MotionModel::best_fit(const LaserScan& scan, const Rolled& felt) c
                                     pose_of({-l, r, 0.0}),
                                     pose_of({l, -r, 0.0}),
                                     pose_of({r, l, 0.0})};
-  std::array<ScanPair::Errors, 2> errors{pair_.errors(scan, starts[0])};
-  Pose2 start = starts[0];
-  for (std::size_t k = 1; k < starts.size(); ++k) {
-    errors[1] = pair_.errors(scan, starts[k]);
-    if (ScanPair::total(pair_.advantage(errors[1], errors[0], ScanPair::kRough_m, false)) <= 0.0) continue;
-    errors[0] = errors[1];
-    start = starts[k];
-  }
-  return pair_.fit(scan, start);
+  return pair_.fit(scan, pair_.likeliest(scan, starts));
 }
 
 /// The most likely motion within the bounds: a quadratic form's least in a box, one coordinate after the other. Of
 /// (left, right, aside, ahead beyond the wheels).
 Pose2 MotionModel::within_bounds(const ScanPair::Fit& fit, const Rolled& felt) const noexcept {
   using Vector4 = Eigen::Vector4d;
-  const Moved found = moved_to(fit.kept_from_now);
+  const Moved found = moved_to(fit.kept_from_now, drive_.track_width_m);
   const double apart_m = kTrackShare * std::fabs(felt.right_m - felt.left_m) + late_m_;
   const auto range = [&](double rolled_m) {
     const double least = kLeastGain * rolled_m, most = kMostGain * rolled_m;
@@ -220,7 +211,7 @@ Pose2 MotionModel::within_bounds(const ScanPair::Fit& fit, const Rolled& felt) c
 void MotionModel::update_gain(const Rolled& felt) noexcept {
   const double ahead_m = 0.5 * (felt.left_m + felt.right_m);
   if (std::fabs(ahead_m) < kLeast_m) return;
-  const Moved moved = moved_to(fit_.kept_from_now);
+  const Moved moved = moved_to(fit_.kept_from_now, drive_.track_width_m);
   const bool tells = against_wheels_ > kTells * fit_.compared;  // else the wheels explain it
   const double seen = tells ? 0.5 * (moved.left_m + moved.right_m) / ahead_m : 1.0;
   const double var = (fit_.information.inverse()(0, 0) + late_m_ * late_m_) / (ahead_m * ahead_m) + kSlip * kSlip;
@@ -235,12 +226,6 @@ Pose2 MotionModel::pose_of(const Moved& moved) const noexcept {
   const Vec2 ahead = direction(0.5 * turn);
   const Vec2 way = ahead * (0.5 * (moved.left_m + moved.right_m)) + Vec2{-ahead.y, ahead.x} * moved.aside_m;
   return {way.x, way.y, turn};
-}
-
-MotionModel::Moved MotionModel::moved_to(const Pose2& kept_from_now) const noexcept {
-  const Vec2 ahead = direction(0.5 * kept_from_now.heading), way = kept_from_now.position();
-  const double apart = 0.5 * kept_from_now.heading * drive_.track_width_m, middle = dot(ahead, way);
-  return {middle - apart, middle + apart, cross(ahead, way)};
 }
 
 }  // namespace jaywalk

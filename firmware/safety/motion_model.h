@@ -12,16 +12,13 @@ namespace jaywalk {
 /// One model of seen, felt and commanded motion (SAFETY 18 and 23): how far the wheels go by what the scans show,
 /// against what the robot file says, and how the scanner is turned in its mount, are states with bounds.
 ///
-/// What is felt against what is commanded, and each wheel's angle against its speed, is FeltMotion's. Of what is seen,
-/// each newer scan is matched to one kept at most kMost_m before (ScanPair). The match is held against the most likely
-/// motion within the bounds: each wheel goes kLeastGain to kMostGain times as far as it rolls, and none of it aside by
-/// more than a mount that is turned by kMostYaw. The logarithm of their likelihoods' ratio is summed up from pair to
-/// pair (Page 1954); kEvidence of it contradicts the wheels. For each arc of kBlind_rad the same is done for "stands
-/// still" against "moves as the robot does": an arc that stands while the robot drives is blind. A gain that slip
-/// could cause is a fault where a Kalman filter finds it so over metres.
+/// Felt against commanded is FeltMotion's. Each newer scan is matched to one kept at most kMost_m before (ScanPair),
+/// and the match held against the most likely motion within the bounds. The logarithm of their likelihoods' ratio is
+/// summed up from pair to pair (Page 1954); kEvidence of it contradicts the wheels. For each arc of kBlind_rad the same
+/// is done for "stands still" against "moves as the robot does": an arc that stands while the robot drives is blind. A
+/// gain that slip could cause is a fault where a Kalman filter finds it so over metres.
 ///
-/// Told where the scans can tell: not in open ground, nor, of the way along them, between bare walls. Thread: the
-/// loop's. Memory is fixed.
+/// Nothing is told in open ground, nor of the way along bare walls. Thread: the loop's; memory is fixed.
 class MotionModel {
  public:
   /// `scanner`: its index in RobotModel::lasers(). Scans of this scanner alone go to judge().
@@ -37,10 +34,6 @@ class MotionModel {
 
  private:
   using Costs = ScanPair::Costs;
-  /// How far each wheel moved the robot, and how far it went aside, half way through its turn.
-  struct Moved {
-    double left_m = 0.0, right_m = 0.0, aside_m = 0.0;
-  };
 
   /// False where it tells nothing, as at rest.
   bool look(const LaserScan& scan) noexcept;
@@ -55,7 +48,6 @@ class MotionModel {
   void keep(const LaserScan& scan, const Rolled& rolled) noexcept;
   void update_gain(const Rolled& felt) noexcept;
   [[nodiscard]] Pose2 pose_of(const Moved& moved) const noexcept;
-  [[nodiscard]] Moved moved_to(const Pose2& kept_from_now) const noexcept;
 
   DriveModel drive_;
   double late_m_;  ///< that a wheel may have rolled while its report was late

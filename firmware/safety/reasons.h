@@ -44,7 +44,6 @@ constexpr Reason operator|(Reason a, Reason b) {
   return static_cast<Reason>(static_cast<std::uint32_t>(a) | static_cast<std::uint32_t>(b));
 }
 constexpr Reason& operator|=(Reason& a, Reason b) { return a = a | b; }
-/// `set` less what is in `others`.
 constexpr Reason without(Reason set, Reason others) {
   return static_cast<Reason>(static_cast<std::uint32_t>(set) & ~static_cast<std::uint32_t>(others));
 }
@@ -62,45 +61,41 @@ struct ReasonRow {
   const char* says;  ///< to a person
 };
 /// In the order in which to_string() names them.
-inline constexpr std::array kReasons{
-    ReasonRow{Reason::kStopZone, "stop_zone", ReasonKind::kLimit, "something stands in its way"},
-    ReasonRow{Reason::kScanStale, "scan_stale", ReasonKind::kFault, "the newest scan is too old"},
-    ReasonRow{Reason::kScanInvalid, "scan_invalid", ReasonKind::kFault, "the scan cannot be trusted"},
-    ReasonRow{Reason::kScanFrozen, "scan_frozen", ReasonKind::kFault, "the same scan comes again and again"},
-    ReasonRow{Reason::kWheelsStale, "wheels_stale", ReasonKind::kFault, "the wheels' feedback is too old"},
-    ReasonRow{Reason::kPlanStale, "plan_stale", ReasonKind::kLimit, "no way is known, or the plan is too old"},
-    ReasonRow{Reason::kEmergencyStop, "emergency_stop", ReasonKind::kLatchedFault, "the emergency stop is pressed"},
-    ReasonRow{Reason::kMissedTicks, "missed_ticks", ReasonKind::kLatchedFault, "the computer was held up"},
-    ReasonRow{Reason::kSpeedLimit, "speed_limit", ReasonKind::kLimit, "it is faster than is allowed"},
-    ReasonRow{Reason::kNotFinite, "not_finite", ReasonKind::kFault, "what was wanted is no number"},
-    ReasonRow{Reason::kLatched, "latched", ReasonKind::kRemark, "a fault waits for a reset"},
-    ReasonRow{Reason::kUnwatched, "unwatched", ReasonKind::kLimit, "it cannot see where it would go"},
-    ReasonRow{Reason::kNoGoal, "no_goal", ReasonKind::kRemark, "it has no goal"},
-    ReasonRow{Reason::kBus, "bus", ReasonKind::kLatchedFault, "the drives' bus is unwell"},
-    ReasonRow{Reason::kDrive, "drive", ReasonKind::kLatchedFault, "a drive is in trouble"},
-    ReasonRow{Reason::kTurnBlocked, "turn_blocked", ReasonKind::kRemark, "no room to turn to the goal's heading"},
-    ReasonRow{Reason::kTouched, "touched", ReasonKind::kLimit, "something touches it, or its scanner sees itself"},
-    ReasonRow{Reason::kWheelsInvalid, "wheels_invalid", ReasonKind::kFault, "the wheels' feedback is no number"},
-    ReasonRow{Reason::kSightLost, "sight_lost", ReasonKind::kFault, "too many beams prove nothing"},
-    ReasonRow{Reason::kWheelsDisobey, "wheels_disobey", ReasonKind::kLatchedFault,
-              "the wheels do not do what they are told"},
-    ReasonRow{Reason::kMotionMismatch, "motion_mismatch", ReasonKind::kLatchedFault,
-              "the scans show another motion than the wheels feel"},
-    ReasonRow{Reason::kStopUnconfirmed, "stop_unconfirmed", ReasonKind::kLatchedFault,
-              "the wheels do not confirm a stop"},
-    ReasonRow{Reason::kForeignMaster, "foreign_master", ReasonKind::kLatchedFault,
-              "another program commands the drives"},
-    ReasonRow{Reason::kNotRecorded, "not_recorded", ReasonKind::kRemark, "the disk is full"},
-    ReasonRow{Reason::kSpeedZone, "speed_zone", ReasonKind::kLimit, "a zone in the map wants it slower"},
-    ReasonRow{Reason::kPoseDoubtful, "pose_doubtful", ReasonKind::kLatchedFault,
-              "it was carried, or where it is was guessed over a gap"}};
+inline constexpr auto kReasons = std::to_array<ReasonRow>(
+    {{Reason::kStopZone, "stop_zone", ReasonKind::kLimit, "something stands in its way"},
+     {Reason::kScanStale, "scan_stale", ReasonKind::kFault, "the newest scan is too old"},
+     {Reason::kScanInvalid, "scan_invalid", ReasonKind::kFault, "the scan cannot be trusted"},
+     {Reason::kScanFrozen, "scan_frozen", ReasonKind::kFault, "the same scan comes again and again"},
+     {Reason::kWheelsStale, "wheels_stale", ReasonKind::kFault, "the wheels' feedback is too old"},
+     {Reason::kPlanStale, "plan_stale", ReasonKind::kLimit, "no way is known, or the plan is too old"},
+     {Reason::kEmergencyStop, "emergency_stop", ReasonKind::kLatchedFault, "the emergency stop is pressed"},
+     {Reason::kMissedTicks, "missed_ticks", ReasonKind::kLatchedFault, "the computer was held up"},
+     {Reason::kSpeedLimit, "speed_limit", ReasonKind::kLimit, "it is faster than is allowed"},
+     {Reason::kNotFinite, "not_finite", ReasonKind::kFault, "what was wanted is no number"},
+     {Reason::kLatched, "latched", ReasonKind::kRemark, "a fault waits for a reset"},
+     {Reason::kUnwatched, "unwatched", ReasonKind::kLimit, "it cannot see where it would go"},
+     {Reason::kNoGoal, "no_goal", ReasonKind::kRemark, "it has no goal"},
+     {Reason::kBus, "bus", ReasonKind::kLatchedFault, "the drives' bus is unwell"},
+     {Reason::kDrive, "drive", ReasonKind::kLatchedFault, "a drive is in trouble"},
+     {Reason::kTurnBlocked, "turn_blocked", ReasonKind::kRemark, "no room to turn to the goal's heading"},
+     {Reason::kTouched, "touched", ReasonKind::kLimit, "something touches it, or its scanner sees itself"},
+     {Reason::kWheelsInvalid, "wheels_invalid", ReasonKind::kFault, "the wheels' feedback is no number"},
+     {Reason::kSightLost, "sight_lost", ReasonKind::kFault, "too many beams prove nothing"},
+     {Reason::kWheelsDisobey, "wheels_disobey", ReasonKind::kLatchedFault, "the wheels do not do what they are told"},
+     {Reason::kMotionMismatch, "motion_mismatch", ReasonKind::kLatchedFault,
+      "the scans show another motion than the wheels feel"},
+     {Reason::kStopUnconfirmed, "stop_unconfirmed", ReasonKind::kLatchedFault, "the wheels do not confirm a stop"},
+     {Reason::kForeignMaster, "foreign_master", ReasonKind::kLatchedFault, "another program commands the drives"},
+     {Reason::kNotRecorded, "not_recorded", ReasonKind::kRemark, "the disk is full"},
+     {Reason::kSpeedZone, "speed_zone", ReasonKind::kLimit, "a zone in the map wants it slower"},
+     {Reason::kPoseDoubtful, "pose_doubtful", ReasonKind::kLatchedFault,
+      "it was carried, or where it is was guessed over a gap"}});
 
 [[nodiscard]] constexpr const ReasonRow& row_of(Reason reason) {
   return *std::find_if(kReasons.begin(), kReasons.end() - 1,
                        [=](const ReasonRow& row) { return row.reason == reason; });
 }
 
-/// Set of the reasons of a kind.
 constexpr Reason of_kind(ReasonKind kind) {
   Reason set = Reason::kNone;
   for (const ReasonRow& row : kReasons)

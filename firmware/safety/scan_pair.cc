@@ -16,7 +16,8 @@ constexpr double kEdge_m = 0.1;
 constexpr float kRoundWeight = 0.06F;
 constexpr double kLeastNoise_m = 0.008, kMostNoise_m = 0.06;  ///< beams are discrete, surfaces rough
 constexpr double kCoarse_m = 0.1;                             ///< an error that weighs a quarter, to begin with
-constexpr double kFeigned = 2.0;  ///< times what noise turns normals by, which is no information: it varies by a fifth
+constexpr double kFeigned = 2.0;   ///< times what noise turns normals by, which is no information: it varies by a fifth
+constexpr double kRough_m = 0.05;  ///< standard deviation of errors before a fit
 constexpr int kSteps = 7;
 constexpr double kOutlier = 4.5;              ///< negative log-likelihood at three standard deviations
 const Eigen::Vector3d kPrior{1.0, 1.0, 1.0};  ///< of a step, as information: no point at all has a thousand
@@ -154,6 +155,18 @@ ScanPair::Errors ScanPair::shown_again(const LaserScan& scan) const noexcept {
   for (std::size_t k = 0; k < points_.size(); ++k)
     errors[k] = static_cast<float>(shown(scan, direction_[points_[k].beam] * points_[k].range_m, true).error_m);
   return errors;
+}
+
+Pose2 ScanPair::likeliest(const LaserScan& scan, std::span<const Pose2> motions) const noexcept {
+  Pose2 best = motions[0];
+  Errors least = errors(scan, best);
+  for (const Pose2& motion : motions.subspan(1)) {
+    const Errors tried = errors(scan, motion);
+    if (total(advantage(tried, least, kRough_m, false)) <= 0.0) continue;
+    least = tried;
+    best = motion;
+  }
+  return best;
 }
 
 ScanPair::Fit ScanPair::fit(const LaserScan& scan, const Pose2& start) const noexcept {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "hal/types/fixed_vector.h"
 #include "hal/types/geometry.h"
@@ -18,8 +19,7 @@ namespace jaywalk {
 class ScanPair {
  public:
   static constexpr std::size_t kMostPoints = 160, kSectors = 24;
-  static constexpr int kPeople = 2;         ///< sectors that pedestrians and their shadows may fill
-  static constexpr double kRough_m = 0.05;  ///< standard deviation of errors before a fit
+  static constexpr int kPeople = 2;  ///< sectors that pedestrians and their shadows may fill
   /// Logarithm of a likelihood ratio, for each sector.
   using Costs = std::array<double, kSectors>;
   [[nodiscard]] static double total(const Costs& costs) noexcept;
@@ -58,6 +58,8 @@ class ScanPair {
                               bool hidden_too = false) const noexcept;
   /// The same of a scanner that shows each point once more where it did, whatever the robot does.
   [[nodiscard]] Errors shown_again(const LaserScan& scan) const noexcept;
+  /// The one of some motions that the errors speak for most, as they are before a fit.
+  [[nodiscard]] Pose2 likeliest(const LaserScan& scan, std::span<const Pose2> motions) const noexcept;
   /// Gauss-Newton with outliers weighed down (Geman and McClure 1987).
   [[nodiscard]] Fit fit(const LaserScan& scan, const Pose2& start) const noexcept;
   /// One step of it: how good the fit is where it is, and there it is moved on.
@@ -89,7 +91,6 @@ class ScanPair {
   [[nodiscard]] std::int64_t beam_towards(const LaserScan& scan, Vec2 in_laser) const noexcept;
   /// Of the robot, from the first beam to that one.
   [[nodiscard]] Pose2 moved_until(double beam) const noexcept;
-  /// Whether the surface that a beam hits goes on straight to either side.
   [[nodiscard]] bool is_flat(const LaserScan& scan, std::uint32_t beam) const noexcept;
 
   Pose2 robot_from_laser_;

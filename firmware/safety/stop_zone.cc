@@ -1,10 +1,10 @@
 #include "firmware/safety/stop_zone.h"
 
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
 #include "firmware/safety/latency.h"
+#include "hal/shown_text.h"
 #include "hal/types/errors.h"
 #include "hal/types/fixed_vector.h"
 
@@ -34,14 +34,10 @@ Vec2 surface_at(const LaserScan& scan, std::size_t beam) {
 constexpr double kPost_m = 0.07;
 constexpr const char* kRemedy = ", raise limits.brake_mps2 (what the drives are proved to do), or take ";
 
-/// From the laser to the farthest corner of the footprint.
 double farthest_corner_m(const Footprint& body, const LaserModel& of) {
   const Vec2 laser = of.robot_from_laser.position();
   double farthest = 0.0;
-  for (const double x : {body.front_m, -body.rear_m}) {
-    for (const double y : {body.half_width_m, -body.half_width_m})
-      farthest = std::max(farthest, distance(laser, {x, y}));
-  }
+  for (const Vec2 corner : corners_of(body)) farthest = std::max(farthest, distance(laser, corner));
   return farthest;
 }
 
@@ -53,9 +49,8 @@ double speed_for_stop(const RobotModel& model, Duration tick, double stop_m) {
 }
 
 std::string lower_speed_to(double mps) {
-  std::array<char, 60> text{};
-  std::snprintf(text.data(), text.size(), "lower limits.max_speed_mps to %.2f", std::floor(100.0 * mps) / 100.0);
-  return mps >= 0.01 ? text.data() : "lower limits.max_speed_mps and max_turn_radps";
+  if (mps < 0.01) return "lower limits.max_speed_mps and max_turn_radps";
+  return formatted("lower limits.max_speed_mps to %.2f", std::floor(100.0 * mps) / 100.0);
 }
 
 void require_in_reach(const RobotModel& model, const LaserModel& laser, Duration tick, const std::string& place) {
@@ -63,12 +58,10 @@ void require_in_reach(const RobotModel& model, const LaserModel& laser, Duration
   const double reach_m = stop_m + StopZoneConfig{}.margin_m + farthest_corner_m(model.footprint, laser);
   const double step_rad = laser.fov_rad / (laser.beams - 1);
   const double seen_m = kPost_m / (2.0 * sin(std::min(0.5 * step_rad, 0.5 * kPi)));
-  std::array<char, 200> text{};
   const auto refuse_beyond = [&](double limit_m, const char* why, const char* otherwise) {
     if (reach_m <= limit_m) return;
-    std::snprintf(text.data(), text.size(), ": stopping takes %.1f m, up to %.1f m from the laser, and %s %.1f m",
-                  stop_m, reach_m, why, limit_m);
-    throw StartupError(place + text.data(),
+    throw StartupError(place + formatted(": stopping takes %.1f m, up to %.1f m from the laser, and %s %.1f m", stop_m,
+                                         reach_m, why, limit_m),
                        lower_speed_to(speed_for_stop(model, tick, stop_m - (reach_m - limit_m))) + kRemedy + otherwise);
   };
   refuse_beyond(laser.range_max_m, "its range is", "a laser that sees farther");
@@ -83,7 +76,7 @@ StopZone::StopZone(const StopZoneConfig& config)
 
 double StopZone::margin_at(double rim_mps) const noexcept {
   const double share = std::min(rim_mps / Rules::kFull_mps, 1.0);
-  return config_.creep_margin_m + (config_.margin_m - config_.creep_margin_m) * share;
+  return Rules::kCreepMargin_m + (config_.margin_m - Rules::kCreepMargin_m) * share;
 }
 
 double StopZone::speed_to_stop_within(double gap_m, double reaction_s) const noexcept {
@@ -132,7 +125,7 @@ bool StopZone::may_creep(const OfEach<LaserScan>& scans, const Twist2& twist, st
   if (nearest >= Rules::kBeside_m || !holds_all) return false;
   const SweptPath path(twist, rim_speed_mps(twist), look_m);
   const double margin =
-      std::clamp(nearest - Rules::kSwing_m, std::min(nearest, Rules::kLeast_m), config_.creep_margin_m);
+      std::clamp(nearest - Rules::kSwing_m, std::min(nearest, Rules::kLeast_m), Rules::kCreepMargin_m);
   return std::all_of(near.begin(), near.end(),
                      [&](Vec2 point) { return std::isinf(way_to(point, path, margin, look_m)); });
 }
@@ -177,14 +170,18 @@ double longest_stop_m(const RobotModel& model, Duration tick) noexcept {
   return v * worst_reaction_s(model, tick) + v * v / (2.0 * model.limits.brake_mps2);
 }
 
+OfOthers<Pose2> other_mounts(const RobotModel& model) noexcept {
+  OfOthers<Pose2> mounts;
+  for (const LaserModel& laser : model.other_lasers) (void)mounts.push_back(laser.robot_from_laser);
+  return mounts;
+}
+
 StopZoneConfig stop_zone_for(const RobotModel& model, Duration tick) noexcept {
-  OfOthers<Pose2> others;
-  for (const LaserModel& laser : model.other_lasers) (void)others.push_back(laser.robot_from_laser);
   return {.footprint = model.footprint,
           .robot_from_laser = model.laser.robot_from_laser,
           .brake_mps2 = model.limits.brake_mps2,
           .look_ahead_m = std::min(longest_stop_m(model, tick), SweptPath::kLongest_m),
-          .robot_from_others = others};
+          .robot_from_others = other_mounts(model)};
 }
 
 void require_zone_in_reach(const RobotModel& model, Duration tick, const std::string& place) {

@@ -56,21 +56,26 @@ class SweptPath {
   std::array<Pose, kMostSteps + 1> poses_;
 };
 
+[[nodiscard]] OfOthers<Pose2> other_mounts(const RobotModel& model) noexcept;
+
+/// From the left one in front counter-clockwise, in the robot's frame.
+[[nodiscard]] inline std::array<Vec2, 4> corners_of(const Footprint& body) noexcept {
+  const double front = body.front_m, rear = -body.rear_m, half = body.half_width_m;
+  return {{{front, half}, {rear, half}, {rear, -half}, {front, -half}}};
+}
+
 struct StopZoneConfig {
   Footprint footprint;
   Pose2 robot_from_laser;
   double margin_m = StopZoneRules<double>::kMargin_m;
-  double creep_margin_m = StopZoneRules<double>::kCreepMargin_m;
   double brake_mps2 = 1.0;              ///< what the drive was proved to do
   double look_ahead_m = 2.0;            ///< how far the rim goes, at its fastest, until the robot stands
   OfOthers<Pose2> robot_from_others{};  ///< the other lasers' mounts
 };
 
 /// How far the robot can go along a constant twist before its footprint, grown by the margin, meets a point of the raw
-/// scan, or of those of several scanners. "Far" is measured along the fastest-moving part of the footprint (m), so that
-/// turning in place counts too.
-///
-/// Points that the motion takes the robot away from do not count, or it could never leave what it faces.
+/// scans; m along the fastest-moving part of the footprint, so that turning in place counts too. Points that the motion
+/// takes the robot away from do not count, or it could never leave what it faces.
 class StopZone {
  public:
   explicit StopZone(const StopZoneConfig& config);
@@ -89,7 +94,6 @@ class StopZone {
   /// Whether a beam ends within the footprint: on a part of the robot itself, or on a person touching it. Such a
   /// point forbids every motion that does not leave it.
   [[nodiscard]] bool is_on_body(const LaserScan& scan, std::size_t beam) const noexcept;
-  /// How many do.
   [[nodiscard]] std::size_t beams_on_body(const LaserScan& scan) const noexcept;
   /// What is kept free round the footprint (m) at this speed of its rim.
   [[nodiscard]] double margin_at(double rim_mps) const noexcept;

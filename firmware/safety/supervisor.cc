@@ -2,8 +2,6 @@
 
 #include <cmath>
 
-#include "firmware/safety/reasons.h"
-
 namespace jaywalk {
 namespace {
 
@@ -24,11 +22,21 @@ double share_within(const Twist2& twist, const MotionLimits& limits, double fres
   return share;
 }
 
-/// How many times such a twist fits into the limits.
 double times_to_limits(const Twist2& twist, const MotionLimits& limits) {
   constexpr double kLeast = 1e-9;  // of what hardly moves
   return std::min(limits.max_speed_mps / std::max(std::fabs(twist.v_mps), kLeast),
                   limits.max_turn_radps / std::max(std::fabs(twist.w_radps), kLeast));
+}
+
+constexpr Duration kOldestPlan = std::chrono::milliseconds(1000);  // older: standstill
+constexpr Duration kSlowingPlan = std::chrono::milliseconds(300);  // older: the slower the older
+constexpr double kUnwatched_mps = 0.3;                             // SAFETY: where nothing watches the way
+
+/// Share of the limits that a plan of that age is good for.
+double plan_share(Time plan_stamp, Time now) {
+  if (!is_older(plan_stamp, now, kSlowingPlan)) return 1.0;
+  if (is_older(plan_stamp, now, kOldestPlan)) return 0.0;
+  return to_seconds(kOldestPlan - age(plan_stamp, now)) / to_seconds(kOldestPlan - kSlowingPlan);
 }
 
 constexpr double kPlannersReach_m = 3.0;  // beyond the stop zone's: motion keeps off unseen walls early
@@ -174,7 +182,7 @@ Twist2 Supervisor::limited(Twist2 twist, const SafetyInput& input, Verdict& verd
   at_most(share_within(twist, limits, 1.0), Reason::kSpeedLimit);
   at_most(unproved_share(twist), Reason::kSpeedLimit);
   at_most(input.most_speed_mps / std::max(std::fabs(twist.v_mps), 1e-9), Reason::kSpeedZone);
-  const double reaction = reaction_s(input);
+  const double reaction = reaction_s(input.scans, config_.model, input.now, config_.tick, input.latency);
   at_most(watched_share(twist, reaction), Reason::kUnwatched);
   at_most(proven_share(twist, reaction), Reason::kUnwatched);
   const double fresh = plan_share(input.plan_stamp, input.now);  // of the limits: shares of what is wanted add up
@@ -187,29 +195,18 @@ Twist2 Supervisor::limited(Twist2 twist, const SafetyInput& input, Verdict& verd
   if (stops_from_mps < creep_mps && stop_zone_.may_creep(input.scans, twist, unseen_walls_.points(), reaction))
     stops_from_mps = creep_mps;
   if (rim_speed > 0.0) at_most(stops_from_mps / rim_speed, Reason::kStopZone);
-  if (verdict.gap_m == 0.0 && touched(input.scans)) verdict.reasons |= Reason::kTouched;
+  for (const LaserScan& scan : input.scans)
+    if (verdict.gap_m == 0.0 && stop_zone_.beams_on_body(scan) > 0) verdict.reasons |= Reason::kTouched;
   return twist;
-}
-
-double Supervisor::plan_share(Time plan_stamp, Time now) const noexcept {
-  if (!is_older(plan_stamp, now, config_.slow_plan_age)) return 1.0;
-  if (is_older(plan_stamp, now, config_.max_plan_age)) return 0.0;
-  const Duration old = age(plan_stamp, now);
-  return to_seconds(config_.max_plan_age - old) / to_seconds(config_.max_plan_age - config_.slow_plan_age);
-}
-
-bool Supervisor::touched(const OfEach<LaserScan>& scans) const noexcept {
-  std::size_t beams = 0;
-  for (const LaserScan& scan : scans) beams += stop_zone_.beams_on_body(scan);
-  return beams > 0;
 }
 
 /// Slowly where no laser ever looks: each part of the body that goes there.
 double Supervisor::watched_share(const Twist2& twist, double reaction_s) const noexcept {
   const double rim_mps = stop_zone_.rim_speed_mps(twist);
-  if (rim_mps <= config_.unwatched_speed_mps) return 1.0;
-  const SweptPath path(twist, rim_mps, has_blanked() ? stop_zone_.stopping_distance_m(rim_mps, reaction_s) : 0.0);
-  return config_.unwatched_speed_mps / std::max(watch_.unwatched_mps(gaps(), twist, path), config_.unwatched_speed_mps);
+  if (rim_mps <= kUnwatched_mps) return 1.0;
+  const bool has_blanked = std::ranges::any_of(gaps_, &BlindGaps::has_blanked);
+  const SweptPath path(twist, rim_mps, has_blanked ? stop_zone_.stopping_distance_m(rim_mps, reaction_s) : 0.0);
+  return kUnwatched_mps / std::max(watch_.unwatched_mps(gaps(), twist, path), kUnwatched_mps);
 }
 
 /// Slowly where the way that it takes to stop enters what lost beams could hide, and so that it stops before that. Once
@@ -222,7 +219,7 @@ double Supervisor::proven_share(const Twist2& twist, double reaction_s) noexcept
   const double way_m = watch_.way_to_lost_m(gaps(), twist, path, stop_zone_.margin_at(rim_mps));
   lost_ahead_ = std::isfinite(way_m);
   if (!lost_ahead_) return 1.0;
-  return std::min(config_.unwatched_speed_mps, stop_zone_.speed_to_stop_within(way_m, reaction_s)) / rim_mps;
+  return std::min(kUnwatched_mps, stop_zone_.speed_to_stop_within(way_m, reaction_s)) / rim_mps;
 }
 
 Twist2 Supervisor::braked(const Twist2& target) const noexcept {

@@ -1,11 +1,8 @@
 #pragma once
 // Supervisor, and the modes of the robot.
-#include <algorithm>
-#include <array>
 #include <cstdint>
 #include <limits>
 #include <span>
-#include <string_view>
 #include <vector>
 
 #include "firmware/safety/blind_gaps.h"
@@ -23,42 +20,13 @@
 namespace jaywalk {
 /// What the robot does, as far as safety is concerned.
 enum class Mode : std::uint8_t {
-  kOff,       ///< no loop runs
-  kStandby,   ///< the drives are not ready: not proved yet, or proved anew after a reset
-  kArmed,     ///< ready, at rest, without a goal
+  kStandby,   ///< the drives are not ready: not proved yet, or proved anew after a reset; no torque
+  kArmed,     ///< ready, at rest, without a goal; torque holds the wheels
   kDriving,   ///< on the way to a goal
   kTurning,   ///< at the goal, on the way to the heading wanted there
   kStopping,  ///< ramps to rest: the goal is gone, or a fault that ends by itself is there
-  kLatched    ///< a fault happened: at rest until a person's reset
+  kLatched    ///< a fault happened: ramps to rest and stays there until a person's reset
 };
-
-/// What the loop lets out to the drives in a mode.
-enum class WireOrder : std::uint8_t {
-  kNothing,    ///< no frame: the drives' own watchdogs hold the wheels
-  kZero,       ///< heartbeat and setpoints of zero; no torque until the drives are proved
-  kSetpoints,  ///< heartbeat and the permitted speeds
-  kRamp        ///< heartbeat and speeds that only fall
-};
-
-struct ModeRow {
-  Mode mode;
-  std::string_view name;
-  WireOrder wire;
-};
-
-/// One row a mode, in the order of Mode.
-inline constexpr std::array kModes{
-    ModeRow{Mode::kOff, "off", WireOrder::kNothing},
-    ModeRow{Mode::kStandby, "standby", WireOrder::kZero},  // and the arming proof; no torque
-    ModeRow{Mode::kArmed, "armed", WireOrder::kZero},      // torque holds the wheels
-    ModeRow{Mode::kDriving, "driving", WireOrder::kSetpoints},
-    ModeRow{Mode::kTurning, "turning", WireOrder::kSetpoints},
-    ModeRow{Mode::kStopping, "stopping", WireOrder::kRamp},
-    // Where the feedback does not confirm the ramp: quick stop, network stop, then no frame.
-    ModeRow{Mode::kLatched, "latched", WireOrder::kRamp},
-};
-
-[[nodiscard]] constexpr const ModeRow& row_of(Mode mode) noexcept { return kModes[static_cast<std::size_t>(mode)]; }
 
 /// What decides about the next mode, in one tick.
 struct ModeInput {
@@ -81,7 +49,7 @@ struct ModeInput {
   if (in.latches && !(mode == Mode::kLatched && may_leave)) return Mode::kLatched;
   if (mode == Mode::kLatched && !may_leave) return Mode::kLatched;
   if (!in.drives_ready || (mode == Mode::kLatched && in.latches)) return Mode::kStandby;
-  if ((mode == Mode::kOff || mode == Mode::kStandby) && !in.wants_zero) return Mode::kStandby;
+  if (mode == Mode::kStandby && !in.wants_zero) return Mode::kStandby;
   if (mode == Mode::kLatched) return Mode::kArmed;
   if (in.fault) return in.at_rest ? Mode::kArmed : Mode::kStopping;
   if (in.has_goal) return in.at_goal ? Mode::kTurning : Mode::kDriving;
@@ -90,9 +58,6 @@ struct ModeInput {
 
 struct SupervisorConfig {
   RobotModel model;
-  Duration max_plan_age = std::chrono::milliseconds(1000);  ///< older: standstill
-  Duration slow_plan_age = std::chrono::milliseconds(300);  ///< older: the slower the older
-  double unwatched_speed_mps = 0.3;                         ///< SAFETY: where nothing watches the way
   Duration tick = std::chrono::milliseconds(20);
   bool needs_wheels = true;    ///< false only where a recording has none
   bool judges_motion = false;  ///< commanded against felt against seen: where wheels obey what is commanded here
@@ -119,12 +84,9 @@ struct SafetyInput {
 /// The last to speak before the wheels: the follower asks, the supervisor permits. It judges the raw scans, the wanted
 /// twist and the ages of things, so that it does not depend on planner or tracker being right.
 ///
-/// Each scanner is judged by itself, and one of several that is lost, late or blinded is a fault as the only one is.
-/// Free ground is what they prove together.
-///
-/// A limit holds while its cause does. A fault stops; those of emergency stop, bus, drive and missed ticks, and on
-/// wires all, are latched as well: motion resumes only after a rising edge of reset, seen with the button released and
-/// a wanted twist of zero. Thread: the loop's; never allocates, never throws.
+/// Each scanner is judged by itself; free ground is what they prove together. A limit holds while its cause does. A
+/// fault stops; latched ones (ReasonKind), and on wires all, until next_mode() lets them go. Thread: the loop's; never
+/// allocates, never throws.
 class Supervisor {
  public:
   explicit Supervisor(const SupervisorConfig& config);
@@ -133,9 +95,7 @@ class Supervisor {
   /// UnseenWalls' of the last tick: motion does well to keep off them, too.
   [[nodiscard]] std::span<const Vec2> unseen_walls() const noexcept { return unseen_walls_.points(); }
   /// False while an earlier fault waits for its reset, or the drives for their proof: ask for nothing until then.
-  [[nodiscard]] bool takes_wishes() const noexcept {
-    return mode_ != Mode::kOff && mode_ != Mode::kStandby && mode_ != Mode::kLatched;
-  }
+  [[nodiscard]] bool takes_wishes() const noexcept { return mode_ != Mode::kStandby && mode_ != Mode::kLatched; }
 
  private:
   [[nodiscard]] Reason faults(const Twist2& wanted, const SafetyInput& input) noexcept;
@@ -150,14 +110,6 @@ class Supervisor {
   [[nodiscard]] int missed_in_a_row(Time now) noexcept;
   void update_mode(Reason faults, const Twist2& wanted, const SafetyInput& input) noexcept;
   [[nodiscard]] Twist2 limited(Twist2 twist, const SafetyInput& input, Verdict& verdict) noexcept;
-  [[nodiscard]] double plan_share(Time plan_stamp, Time now) const noexcept;
-  [[nodiscard]] bool touched(const OfEach<LaserScan>& scans) const noexcept;
-  [[nodiscard]] bool has_blanked() const noexcept {
-    return std::any_of(gaps_.begin(), gaps_.end(), [](const BlindGaps& gaps) { return gaps.has_blanked(); });
-  }
-  [[nodiscard]] double reaction_s(const SafetyInput& input) const noexcept {
-    return jaywalk::reaction_s(input.scans, config_.model, input.now, config_.tick, input.latency);
-  }
   [[nodiscard]] double watched_share(const Twist2& twist, double reaction_s) const noexcept;
   [[nodiscard]] double proven_share(const Twist2& twist, double reaction_s) noexcept;
   [[nodiscard]] Twist2 braked(const Twist2& target) const noexcept;

@@ -40,10 +40,8 @@ class LineFit {
 
 bool cuts(const LineFit& line, const Footprint& body) noexcept {
   double least = 1e9, most = -1e9;
-  for (const double x : {body.front_m, -body.rear_m}) {
-    for (const double y : {body.half_width_m, -body.half_width_m})
-      least = std::min(least, line.off_m({x, y})), most = std::max(most, line.off_m({x, y}));
-  }
+  for (const Vec2 corner : corners_of(body))
+    least = std::min(least, line.off_m(corner)), most = std::max(most, line.off_m(corner));
   return least <= 0.0 && most >= 0.0;
 }
 

@@ -18,12 +18,11 @@ class KnownGround {
   virtual void suppose(Vec2 place) noexcept = 0;
 };
 
-/// Walls where no laser looks, as points for the stop zone: those that the loop knows from its map, and each
-/// wall that is straight up to the rim of sight, continued past the body. Of what is seen too little to tell its
-/// direction, the guess is that it goes on along the body's side: so a wall begins that stands beside a start.
+/// Walls where no laser looks, as points for the stop zone: those that the loop knows from its map, and each wall that
+/// is straight up to the rim of sight, continued past the body. Of what is seen too little to tell its direction, the
+/// guess is that it goes on along the body's side: so a wall begins that stands beside a start.
 ///
-/// A continued wall is a guess that only ever slows: it ends a body's length beyond the robot and is none where the map
-/// saw free ground, and a line that would cut the body is none. Thread: the loop's; never allocates, never throws.
+/// The guess only ever slows: it ends a body's length beyond the robot. Thread: the loop's; never allocates or throws.
 class UnseenWalls {
  public:
   /// `reach_m`: from the axle; what a wall is supposed to be farther off is left out.

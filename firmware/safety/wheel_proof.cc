@@ -23,11 +23,6 @@ constexpr double kTellsShare = 0.08;             // of the way: a match as sure 
 constexpr double kProofEvidence = 10.0;          // for the seen way against the felt one (MotionModel)
 constexpr int kProofTimes = 2;                   // scans in a row
 
-double longer(const Rolled& to, const Rolled& from) {
-  const Rolled way = to - from;
-  return std::max(std::fabs(way.left_m), std::fabs(way.right_m));
-}
-
 }  // namespace
 
 void WheelTravel::note(const WheelState& wheels) noexcept {
@@ -40,31 +35,28 @@ void WheelTravel::note(const WheelState& wheels) noexcept {
                         {drive_.wheel_radius_m * wheels.left_rad, drive_.wheel_radius_m * wheels.right_rad}};
 }
 
-bool WheelTravel::at(Time stamp, Rolled& rolled) const noexcept {
+std::optional<Rolled> WheelTravel::at(Time stamp) const noexcept {
   const Reading* after = &readings_[newest_];
-  if (after->stamp < stamp) return false;
+  if (after->stamp < stamp) return std::nullopt;
   for (std::size_t back = 1; back < kMostReadings; ++back) {
     const Reading& before = readings_[(newest_ + kMostReadings - back) % kMostReadings];
-    if (before.stamp == kNever || before.stamp > after->stamp) return false;
-    if (before.stamp <= stamp) {
-      rolled = between(before.rolled, after->rolled,
-                       to_seconds(stamp - before.stamp) / to_seconds(after->stamp - before.stamp));
-      return true;
-    }
+    if (before.stamp == kNever || before.stamp > after->stamp) return std::nullopt;
+    if (before.stamp <= stamp)
+      return between(before.rolled, after->rolled,
+                     to_seconds(stamp - before.stamp) / to_seconds(after->stamp - before.stamp));
     after = &before;
   }
-  return false;
+  return std::nullopt;
 }
 
-bool WheelTravel::expected_at(Time stamp, Rolled& rolled) const noexcept {
+std::optional<Rolled> WheelTravel::expected_at(Time stamp) const noexcept {
   const Reading& last = readings_[newest_];
   const Reading& before = readings_[(newest_ + kMostReadings - 1) % kMostReadings];
-  if (last.stamp == kNever) return false;
-  if (stamp < last.stamp) return at(stamp, rolled);
+  if (last.stamp == kNever) return std::nullopt;
+  if (stamp < last.stamp) return at(stamp);
   const bool extrapolates = before.stamp != kNever && stamp - last.stamp <= kMostBeyond;
   const double share = extrapolates ? to_seconds(stamp - before.stamp) / to_seconds(last.stamp - before.stamp) : 1.0;
-  rolled = between(before.rolled, last.rolled, share);
-  return true;
+  return between(before.rolled, last.rolled, share);
 }
 
 Twist2 WheelTravel::twist_since(Time stamp, const Rolled& rolled) const noexcept {
@@ -81,6 +73,12 @@ Pose2 arc_of(const Rolled& rolled, double track_width_m) noexcept {
   const double turn = (rolled.right_m - rolled.left_m) / track_width_m;
   const Vec2 way = direction(0.5 * turn) * (0.5 * (rolled.left_m + rolled.right_m));
   return {way.x, way.y, turn};
+}
+
+Moved moved_to(const Pose2& end_in_start, double track_width_m) noexcept {
+  const Vec2 ahead = direction(0.5 * end_in_start.heading), way = end_in_start.position();
+  const double apart = 0.5 * end_in_start.heading * track_width_m, middle = dot(ahead, way);
+  return {middle - apart, middle + apart, cross(ahead, way)};
 }
 
 WheelProof::WheelProof(const RobotModel& model, std::size_t scanner)
@@ -112,8 +110,8 @@ bool WheelProof::contradicts(const LaserScan& scan, const WheelState& wheels) no
     return times_against_ >= kProofTimes;
   const Rolled now = rolled(wheels, scan.stamp);
   if (!began_) began_rolled_ = now;
-  rolled_m_ = longer(now, began_rolled_);
-  const bool stands = !began_ || longer(now, std::exchange(last_rolled_, now)) < kStands_m;
+  rolled_m_ = farther_m(now - began_rolled_);
+  const bool stands = !began_ || farther_m(now - std::exchange(last_rolled_, now)) < kStands_m;
   const bool usable = pair_.usable(scan);
   const double radius = drive_.wheel_radius_m, left = radius * wheels.left_radps, right = radius * wheels.right_radps;
   if (usable) pair_.sweep(scan, {0.5 * (left + right), (right - left) / drive_.track_width_m});
@@ -123,7 +121,7 @@ bool WheelProof::contradicts(const LaserScan& scan, const WheelState& wheels) no
   } else if (usable) {
     match(scan, felt);
     judge(felt);
-    if (longer(now, kept_rolled_) > kLongestPair_m && times_against_ == 0) keep(scan, now);
+    if (farther_m(now - kept_rolled_) > kLongestPair_m && times_against_ == 0) keep(scan, now);
   }
   began_ = true;
   over_ = over_ || rolled_m_ > kUnseen_m;
@@ -147,31 +145,16 @@ void WheelProof::match(const LaserScan& scan, const Rolled& felt) noexcept {
     return arc_of({left * felt.left_m, right * felt.right_m}, drive_.track_width_m);
   };
   const std::array others{Pose2{}, on, times(3.0, 3.0), times(10.0, 10.0), times(-1.0, -1.0)};
-  Pose2 start = others[0];
-  ScanPair::Errors least = pair_.errors(scan, start);
-  for (const Pose2& other : others) {
-    const ScanPair::Errors errors = pair_.errors(scan, other);
-    if (ScanPair::total(pair_.advantage(errors, least, ScanPair::kRough_m, false)) <= 0.0) continue;
-    least = errors;
-    start = other;
-  }
   before_ = fit_.kept_from_now;
   const Pose2 by_wheels = times(1.0, 1.0);
   fit_ = pair_.fit(scan, by_wheels);
-  const ScanPair::Fit other = pair_.fit(scan, start);
+  const ScanPair::Fit other = pair_.fit(scan, pair_.likeliest(scan, others));
   const auto over = [&](const ScanPair::Fit& fit, const Pose2& than, bool walls) {
     const ScanPair::Errors seen = pair_.errors(scan, fit.kept_from_now), worse = pair_.errors(scan, than);
     return ScanPair::without_greatest(pair_.advantage(seen, worse, fit.noise_m, walls));
   };
   if (other.tells() && over(other, fit_.kept_from_now, false) > kProofEvidence) fit_ = other;
   evidence_ = over(fit_, by_wheels, true);
-}
-
-Rolled WheelProof::seen() const noexcept {
-  const Pose2& moved = fit_.kept_from_now;
-  const double middle = dot(direction(0.5 * moved.heading), moved.position());
-  const double apart = 0.5 * moved.heading * drive_.track_width_m;
-  return {middle - apart, middle + apart};
 }
 
 /// Standard deviation of the less certain wheel's seen way, m.
@@ -188,14 +171,13 @@ double WheelProof::seen_std_m() const noexcept {
 
 void WheelProof::judge(const Rolled& felt) noexcept {
   if (!fit_.tells()) return;
-  const Rolled seen = this->seen();
-  const double off_m = std::max(std::fabs(seen.left_m - felt.left_m), std::fabs(seen.right_m - felt.right_m));
-  const double way_m = std::max(std::fabs(felt.left_m), std::fabs(felt.right_m)), std_m = seen_std_m();
+  const Moved moved = moved_to(fit_.kept_from_now, drive_.track_width_m);
+  const Rolled seen{moved.left_m, moved.right_m};
+  const double off_m = farther_m(seen - felt), way_m = farther_m(felt), std_m = seen_std_m();
   const double sure_m = kSure * std_m;
   const bool against = evidence_ > kProofEvidence && off_m - sure_m > kOff_m + kOffShare * way_m;
   times_against_ = against ? times_against_ + 1 : 0;
-  const double seen_m = std::max(std::fabs(seen.left_m), std::fabs(seen.right_m));
-  is_no_faster_ = is_no_faster_ || (way_m > kNoFaster_m && seen_m + sure_m < kNoFaster * way_m);
+  is_no_faster_ = is_no_faster_ || (way_m > kNoFaster_m && farther_m(seen) + sure_m < kNoFaster * way_m);
   const bool agree = way_m > kProof_m && std_m < kTellsShare * way_m && off_m < kAgreeShare * way_m;
   times_for_ = agree ? times_for_ + 1 : 0;
   over_ = times_for_ >= kProofTimes;

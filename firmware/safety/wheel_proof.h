@@ -1,7 +1,10 @@
 #pragma once
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 
 #include "firmware/safety/scan_pair.h"
 #include "hal/types/geometry.h"
@@ -17,6 +20,11 @@ constexpr Rolled operator-(const Rolled& a, const Rolled& b) noexcept {
   return {a.left_m - b.left_m, a.right_m - b.right_m};
 }
 
+/// Way of the wheel that went farther, m, 0 or more.
+[[nodiscard]] inline double farther_m(const Rolled& way) noexcept {
+  return std::max(std::fabs(way.left_m), std::fabs(way.right_m));
+}
+
 /// Ring of the wheels' latest readings: the way that each wheel had rolled at a moment. Thread: the loop's; memory is
 /// fixed.
 class WheelTravel {
@@ -27,11 +35,11 @@ class WheelTravel {
   void note(const WheelState& wheels) noexcept;
   /// kNever before the first reading.
   [[nodiscard]] Time newest() const noexcept { return readings_[newest_].stamp; }
-  /// Interpolates between the readings before and after; false where there are none.
-  [[nodiscard]] bool at(Time stamp, Rolled& rolled) const noexcept;
+  /// Interpolates between the readings before and after; nothing where there are none.
+  [[nodiscard]] std::optional<Rolled> at(Time stamp) const noexcept;
   /// The same, but up to 0.2 s beyond the newest reading at the speeds between the last two, and later still as that
-  /// reading has it; false before the first.
-  [[nodiscard]] bool expected_at(Time stamp, Rolled& rolled) const noexcept;
+  /// reading has it; nothing before the first.
+  [[nodiscard]] std::optional<Rolled> expected_at(Time stamp) const noexcept;
   /// Mean twist from a moment, at which the wheels had rolled so far, to the newest reading; none where that is no
   /// later.
   [[nodiscard]] Twist2 twist_since(Time stamp, const Rolled& rolled) const noexcept;
@@ -52,14 +60,18 @@ class WheelTravel {
 /// Motion of the robot on the arc that its wheels rolled: its pose at the end in the frame of its start.
 [[nodiscard]] Pose2 arc_of(const Rolled& rolled, double track_width_m) noexcept;
 
+/// How far each wheel moved the robot, and how far it went aside, half way through its turn.
+struct Moved {
+  double left_m = 0.0, right_m = 0.0, aside_m = 0.0;
+};
+[[nodiscard]] Moved moved_to(const Pose2& end_in_start, double track_width_m) noexcept;
+
 /// Proof that the wheels go as far as they say, over the first way after arming, by the scans of one scanner.
 ///
 /// Counts, gears and radii that are typed wrong show in nothing else. Until the proof a wheel's rim goes at most
 /// kFirst_mps, then kSlow_mps: ten times as far is a walk at most before it is told. The newest scan is matched to the
-/// one kept when the wheels stood last (ScanPair); each wheel's way by that match is held against its counter's. Off by
-/// more than kOff_m and kOffShare of the way they contradict each other; over kProof_m, and within kAgreeShare, they
-/// agree. In open ground, where scans tell nothing of the way, the slow metre is all there is. Thread: the loop's;
-/// memory is fixed.
+/// one kept when the wheels stood last (ScanPair); each wheel's way by that match is held against its counter's. In
+/// open ground, where scans tell nothing, the slow metre is all there is. Thread: the loop's; memory is fixed.
 class WheelProof {
  public:
   static constexpr double kFirst_mps = 0.03, kSlow_mps = 0.1;
@@ -85,7 +97,6 @@ class WheelProof {
   void keep(const LaserScan& scan, const Rolled& rolled) noexcept;
   void match(const LaserScan& scan, const Rolled& felt) noexcept;
   void judge(const Rolled& felt) noexcept;
-  [[nodiscard]] Rolled seen() const noexcept;
   [[nodiscard]] double seen_std_m() const noexcept;
 
   DriveModel drive_;

@@ -1,5 +1,3 @@
-// BMP: uncompressed, a palette of up to 8 bits a pixel, or 24 or 32 bits; rows from the bottom unless the height is
-// negative.
 #include "hal/maps/image_file.h"
 
 #include <array>
@@ -18,9 +16,9 @@ constexpr std::int64_t kMostPixels = 3'000'000'000;  // 500 m a side in cells of
 
 constexpr std::streamsize kLongestComment = 1'000'000;
 
-class PgmRows final : public ImageFile::Rows {
+class PgmFile final : public ImageFile {
  public:
-  explicit PgmRows(const std::filesystem::path& file) : Rows(file), in_(file, std::ios::binary) {
+  explicit PgmFile(const std::filesystem::path& file) : ImageFile(file), in_(file, std::ios::binary) {
     char magic[2] = {};
     in_.read(magic, sizeof magic);
     binary_ = magic[1] == '5';
@@ -31,7 +29,7 @@ class PgmRows final : public ImageFile::Rows {
     if (binary_) in_.get();  // the one white-space before the samples
   }
 
-  void next(std::vector<Pixel>& row) override {
+  void next_row(std::vector<Pixel>& row) override {
     row.resize(static_cast<std::size_t>(width));
     for (Pixel& pixel : row) {
       const std::int64_t sample = binary_ ? binary_sample() : text_number();
@@ -64,9 +62,10 @@ class PgmRows final : public ImageFile::Rows {
 constexpr std::uint32_t kUncompressed = 0, kBitFields = 3;
 constexpr std::size_t kHead = 54;  ///< of the file and of the picture; longer ones say the same first
 
-class BmpRows final : public ImageFile::Rows {
+/// A palette of up to 8 bits a pixel, or 24 or 32 bits; rows from the bottom unless the height is negative.
+class BmpFile final : public ImageFile {
  public:
-  explicit BmpRows(const std::filesystem::path& file) : Rows(file), in_(file, std::ios::binary) {
+  explicit BmpFile(const std::filesystem::path& file) : ImageFile(file), in_(file, std::ios::binary) {
     std::array<unsigned char, kHead> head{};
     read(head.data(), head.size());
     const auto number = [&](std::size_t at, std::size_t bytes) {
@@ -95,7 +94,7 @@ class BmpRows final : public ImageFile::Rows {
     }
   }
 
-  void next(std::vector<Pixel>& row) override {
+  void next_row(std::vector<Pixel>& row) override {
     const std::int64_t from_begin = from_top_ ? next_ : height - 1 - next_;
     ++next_;
     in_.seekg(static_cast<std::streamoff>(begin_ + from_begin * static_cast<std::int64_t>(line_.size())));
@@ -131,21 +130,21 @@ class BmpRows final : public ImageFile::Rows {
   std::vector<unsigned char> line_;
 };
 
-std::unique_ptr<ImageFile::Rows> rows_of(const std::filesystem::path& file) {
+}  // namespace
+
+std::unique_ptr<ImageFile> open_image(const std::filesystem::path& file) {
   char magic[2] = {};
   if (!std::ifstream(file, std::ios::binary).read(magic, 2)) refuse_picture(file, "cannot be read");
   const std::string kind(magic, 2);
-  if (kind == "P2" || kind == "P5") return std::make_unique<PgmRows>(file);
-  if (kind == "\x89P") return png_rows(file);
-  if (kind == "BM") return std::make_unique<BmpRows>(file);
+  if (kind == "P2" || kind == "P5") return std::make_unique<PgmFile>(file);
+  if (kind == "\x89P") return open_png(file);
+  if (kind == "BM") return std::make_unique<BmpFile>(file);
   refuse_picture(file, "neither PNG nor PGM nor BMP");
 }
 
-}  // namespace
+void ImageFile::refuse(const std::string& cause) const { refuse_picture(file_, cause); }
 
-void ImageFile::Rows::refuse(const std::string& cause) const { refuse_picture(file_, cause); }
-
-void ImageFile::Rows::take_size(std::int64_t wide, std::int64_t high) {
+void ImageFile::take_size(std::int64_t wide, std::int64_t high) {
   if (wide < 1 || high < 1) refuse("no size stands in its first lines");
   if (wide > kMostPixels || high > kMostPixels || wide * high > kMostPixels) {
     throw StartupError(file_.string() + ": " + std::to_string(wide) + " x " + std::to_string(high) +
@@ -154,11 +153,5 @@ void ImageFile::Rows::take_size(std::int64_t wide, std::int64_t high) {
   }
   width = static_cast<std::int32_t>(wide), height = static_cast<std::int32_t>(high);
 }
-
-ImageFile::ImageFile(const std::filesystem::path& file) : rows_(rows_of(file)) {}
-ImageFile::~ImageFile() = default;
-std::int32_t ImageFile::width() const { return rows_->width; }
-std::int32_t ImageFile::height() const { return rows_->height; }
-void ImageFile::next_row(std::vector<Pixel>& row) { rows_->next(row); }
 
 }  // namespace jaywalk::sim

@@ -133,14 +133,22 @@ RasterSettings read_settings(const std::filesystem::path& file) {
   return settings;
 }
 
-/// Edges along one grid line: `differs(k)` says whether an edge runs from k to k + 1; `point(k)` is where k lies.
-template <class Differs, class Point>
-void collect_runs(std::int32_t length, const Differs& differs, const Point& point, std::vector<WallSegment>& out) {
+/// Edges along grid line `line`, which runs between rows or else between columns.
+void add_edges_along(const Raster& raster, std::int32_t line, bool between_rows, std::vector<WallSegment>& edges) {
+  const auto is_solid = [&](std::int32_t k, std::int32_t beside) {
+    return between_rows ? raster.solid_cell(k, beside) : raster.solid_cell(beside, k);
+  };
+  const auto differs = [&](std::int32_t k) { return is_solid(k, line) != is_solid(k, line - 1); };
+  const auto point = [&](std::int32_t k) {
+    const Vec2 corner = between_rows ? Vec2{1.0 * k, 1.0 * line} : Vec2{1.0 * line, 1.0 * k};
+    return raster.map_from_raster * (corner * raster.cell_m);
+  };
+  const std::int32_t length = between_rows ? raster.width : raster.height;
   for (std::int32_t k = 0; k < length; ++k) {
     if (!differs(k)) continue;
     const std::int32_t begin = k;
     while (k < length && differs(k)) ++k;
-    out.push_back({point(begin), point(k)});
+    edges.push_back({point(begin), point(k)});
   }
 }
 
@@ -148,15 +156,15 @@ void collect_runs(std::int32_t length, const Differs& differs, const Point& poin
 
 Raster read_raster(const std::filesystem::path& image, const OccupancyRule& rule, double cell_m,
                    std::int32_t most_cells) {
-  ImageFile picture(image);
-  const std::int32_t each = (std::max(picture.width(), picture.height()) + most_cells - 1) / most_cells;
-  Raster raster{{}, cell_m * each, (picture.width() + each - 1) / each, (picture.height() + each - 1) / each, {}};
+  const std::unique_ptr<ImageFile> picture = open_image(image);
+  const std::int32_t each = (std::max(picture->width, picture->height) + most_cells - 1) / most_cells;
+  Raster raster{{}, cell_m * each, (picture->width + each - 1) / each, (picture->height + each - 1) / each, {}};
   const std::size_t columns = static_cast<std::size_t>(raster.width);
   raster.solid.assign(columns * static_cast<std::size_t>(raster.height), 0);
   raster.free.assign(raster.solid.size(), 1);
   std::vector<Pixel> pixels;
-  for (std::int32_t above = picture.height() - 1; above >= 0; --above) {  // rows from the bottom
-    picture.next_row(pixels);
+  for (std::int32_t above = picture->height - 1; above >= 0; --above) {  // rows from the bottom
+    picture->next_row(pixels);
     const std::size_t begin = static_cast<std::size_t>(above / each) * columns;
     for (std::size_t k = 0; k < pixels.size(); ++k) {
       const std::size_t cell = begin + k / static_cast<std::size_t>(each);
@@ -170,27 +178,14 @@ Raster read_raster(const std::filesystem::path& image, const OccupancyRule& rule
 
 std::vector<WallSegment> edges_of(const Raster& raster) {
   std::vector<WallSegment> edges;
-  const Transform2 map_from_raster(raster.map_from_raster);
-  const auto corner = [&](std::int32_t column, std::int32_t row) {
-    return map_from_raster * (Vec2{static_cast<double>(column), static_cast<double>(row)} * raster.cell_m);
-  };
-  for (std::int32_t row = 0; row <= raster.height; ++row) {
-    const auto differs = [&](std::int32_t k) { return raster.solid_cell(k, row) != raster.solid_cell(k, row - 1); };
-    collect_runs(
-        raster.width, differs, [&](std::int32_t k) { return corner(k, row); }, edges);
-  }
-  for (std::int32_t column = 0; column <= raster.width; ++column) {
-    const auto differs = [&](std::int32_t k) {
-      return raster.solid_cell(column, k) != raster.solid_cell(column - 1, k);
-    };
-    collect_runs(
-        raster.height, differs, [&](std::int32_t k) { return corner(column, k); }, edges);
-  }
+  for (std::int32_t row = 0; row <= raster.height; ++row) add_edges_along(raster, row, true, edges);
+  for (std::int32_t column = 0; column <= raster.width; ++column) add_edges_along(raster, column, false, edges);
   return edges;
 }
 
-std::filesystem::path picture_of_raster_map(const std::filesystem::path& yaml_file) {
-  return read_settings(yaml_file).image;
+std::vector<std::filesystem::path> files_of_map(MapKind kind, const std::filesystem::path& file) {
+  if (kind != MapKind::kYaml) return {file};
+  return {file, read_settings(file).image};
 }
 
 Raster load_raster(const std::filesystem::path& yaml_file, std::int32_t most_cells) {
@@ -198,13 +193,6 @@ Raster load_raster(const std::filesystem::path& yaml_file, std::int32_t most_cel
   Raster raster = read_raster(settings.image, settings.rule, settings.cell_m, most_cells);
   raster.map_from_raster = settings.origin;
   return raster;
-}
-
-WallMap load_raster_map(const std::filesystem::path& yaml_file, std::int32_t most_cells) {
-  WallMap map;
-  map.raster = load_raster(yaml_file, most_cells);
-  map.segments = edges_of(map.raster);
-  return map;
 }
 
 }  // namespace jaywalk::sim

@@ -26,13 +26,13 @@ struct PngStructs {
   png_infop info = nullptr;
 };
 
-class PngRows final : public ImageFile::Rows {
+class PngFile final : public ImageFile {
  public:
-  explicit PngRows(const std::filesystem::path& file) : Rows(file), in_(std::fopen(file.c_str(), "rb")) {
+  explicit PngFile(const std::filesystem::path& file) : ImageFile(file), in_(std::fopen(file.c_str(), "rb")) {
     if (!in_) refuse("cannot be read");
-    png_.read = png_create_read_struct(PNG_LIBPNG_VER_STRING, this, &PngRows::jump, &PngRows::pass_over);
+    png_.read = png_create_read_struct(PNG_LIBPNG_VER_STRING, this, &PngFile::jump, &PngFile::pass_over);
     png_.info = png_.read == nullptr ? nullptr : png_create_info_struct(png_.read);
-    if (png_.info == nullptr || !begin()) refuse_damaged();
+    if (png_.info == nullptr || !succeed([this] { begin(); })) refuse_damaged();
     take_size(png_get_image_width(png_.read, png_.info), png_get_image_height(png_.read, png_.info));
     channels_ = png_get_channels(png_.read, png_.info);
     wide_samples_ = png_get_bit_depth(png_.read, png_.info) == 16;
@@ -41,10 +41,10 @@ class PngRows final : public ImageFile::Rows {
     if (png_get_interlace_type(png_.read, png_.info) != PNG_INTERLACE_NONE) hold_all(row_bytes);
   }
 
-  void next(std::vector<Pixel>& row) override {
+  void next_row(std::vector<Pixel>& row) override {
     const png_byte* at = bytes_.data();
     if (lines_.empty()) {
-      if (!read_row()) refuse_damaged();
+      if (!succeed([this] { png_read_row(png_.read, bytes_.data(), nullptr); })) refuse_damaged();
     } else {
       at = lines_[read_++];
     }
@@ -54,39 +54,34 @@ class PngRows final : public ImageFile::Rows {
 
  private:
   [[noreturn]] static void jump(png_structp png, png_const_charp cause) {
-    static_cast<PngRows*>(png_get_error_ptr(png))->cause_ = cause;
+    static_cast<PngFile*>(png_get_error_ptr(png))->cause_ = cause;
     png_longjmp(png, 1);
   }
   static void pass_over(png_structp /*png*/, png_const_charp /*warning*/) {}
   [[noreturn]] void refuse_damaged() const { refuse(cause_.empty() ? "libpng has no memory" : cause_); }
 
-  // Palettes, few bits and transparent colours become samples of 8 bits; gamma is left alone.
-  bool begin() {
+  /// False where one of libpng's calls has jumped.
+  template <class Calls>
+  bool succeed(const Calls& calls) {
     if (setjmp(png_jmpbuf(png_.read)) != 0) return false;
+    calls();
+    return true;
+  }
+  // Palettes, few bits and transparent colours become samples of 8 bits; gamma is left alone.
+  void begin() {
     png_init_io(png_.read, in_.get());
     png_set_user_limits(png_.read, 0x7fffffff, 0x7fffffff);
     png_read_info(png_.read, png_.info);
     png_set_expand(png_.read);
     (void)png_set_interlace_handling(png_.read);
     png_read_update_info(png_.read, png_.info);
-    return true;
-  }
-  bool read_row() {
-    if (setjmp(png_jmpbuf(png_.read)) != 0) return false;
-    png_read_row(png_.read, bytes_.data(), nullptr);
-    return true;
-  }
-  bool read_all() {
-    if (setjmp(png_jmpbuf(png_.read)) != 0) return false;
-    png_read_image(png_.read, lines_.data());
-    return true;
   }
   void hold_all(std::size_t row_bytes) {
     const std::uint64_t all = static_cast<std::uint64_t>(row_bytes) * static_cast<std::uint64_t>(height);
     if (all > kMostHeldBytes) refuse("interlaced, and more than 512 MiB unpacked: save it without interlacing");
     bytes_.resize(all);
     for (std::int32_t k = 0; k < height; ++k) lines_.push_back(bytes_.data() + static_cast<std::size_t>(k) * row_bytes);
-    if (!read_all()) refuse_damaged();
+    if (!succeed([this] { png_read_image(png_.read, lines_.data()); })) refuse_damaged();
   }
 
   std::uint32_t take_sample(const png_byte*& at) const {
@@ -122,6 +117,6 @@ class PngRows final : public ImageFile::Rows {
 
 }  // namespace
 
-std::unique_ptr<ImageFile::Rows> png_rows(const std::filesystem::path& file) { return std::make_unique<PngRows>(file); }
+std::unique_ptr<ImageFile> open_png(const std::filesystem::path& file) { return std::make_unique<PngFile>(file); }
 
 }  // namespace jaywalk::sim

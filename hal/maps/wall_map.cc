@@ -1,9 +1,7 @@
-// The maps that are plain text: MobileSim's and lists of cylinders.
 #include "hal/maps/wall_map.h"
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <limits>
 #include <sstream>
 #include <string>
@@ -22,41 +20,14 @@ constexpr double kMetresPerMillimetre = 0.001;
 constexpr double kDataPointRadius = 0.02;  // m: a laser reading stands for a small piece of wall
 constexpr double kFarthest = 1e6;          // m
 
-/// Reads a text line by line and knows which one it is at; a carriage return before the line's end is dropped.
-class LineReader {
- public:
-  LineReader(const std::filesystem::path& file, std::string remedy)
-      : file_(file), remedy_(std::move(remedy)), in_(file) {
-    if (!in_) refuse("cannot be read");
-  }
-
-  [[nodiscard]] bool next(std::string& line) {
-    if (!std::getline(in_, line)) return false;
-    ++number_;
-    if (!line.empty() && line.back() == '\r') line.pop_back();
-    if (number_ == 1) drop_byte_order_mark(line);
-    return true;
-  }
-  /// Exactly `count` numbers, and nothing else, from `line`.
-  [[nodiscard]] std::vector<double> numbers(const std::string& line, std::size_t count) const {
-    std::istringstream words(line);
-    std::vector<double> values;
-    for (double value = 0.0; words >> value;) values.push_back(value);
-    bool sound = words.eof() && values.size() == count;
-    for (const double value : values) sound = sound && std::fabs(value) <= kFarthest / kMetresPerMillimetre;
-    if (!sound) refuse("\"" + shown(line) + "\" is not " + std::to_string(count) + " numbers");
-    return values;
-  }
-  [[noreturn]] void refuse(const std::string& cause) const {
-    throw StartupError(file_.string() + (number_ > 0 ? ":" + std::to_string(number_) : "") + ": " + cause, remedy_);
-  }
-
- private:
-  std::filesystem::path file_;
-  std::string remedy_;
-  std::ifstream in_;
-  int number_ = 0;
-};
+/// Exactly `count` lengths, and nothing else, from the line that was read last.
+std::vector<double> lengths_in(const std::string& line, std::size_t count, const LineReader& reader) {
+  const std::vector<double> values = LineReader::numbers(line, count);
+  const bool sound = std::all_of(values.begin(), values.end(),
+                                 [](double v) { return std::fabs(v) <= kFarthest / kMetresPerMillimetre; });
+  if (values.empty() || !sound) reader.refuse("\"" + shown(line) + "\" is not " + std::to_string(count) + " numbers");
+  return values;
+}
 
 /// The number behind `name`, where the line has that.
 void read_count(const std::string& line, const std::string& name, std::size_t& count) {
@@ -68,27 +39,17 @@ bool is_blank(const std::string& line) { return line.find_first_not_of(" \t") ==
 }  // namespace
 
 WallMap load_wall_map(MapKind kind, const std::filesystem::path& file) {
-  switch (kind) {
-    case MapKind::kAria: return load_aria_map(file);
-    case MapKind::kCylinders: return load_cylinder_map(file);
-    case MapKind::kYaml: break;
-  }
-  return load_raster_map(file);
+  if (kind == MapKind::kAria) return load_aria_map(file);
+  if (kind == MapKind::kCylinders) return load_cylinder_map(file);
+  WallMap map;
+  map.raster = load_raster(file);
+  map.segments = edges_of(map.raster);
+  return map;
 }
 
-std::vector<std::filesystem::path> files_of_map(MapKind kind, const std::filesystem::path& file) {
-  if (kind != MapKind::kYaml) return {file};
-  return {file, picture_of_raster_map(file)};
+double distance(Vec2 p, const WallSegment& segment) noexcept {
+  return distance(p, nearest_on_segment(p, segment.from, segment.to));
 }
-
-Vec2 nearest_point(Vec2 p, const WallSegment& segment) noexcept {
-  const Vec2 along = segment.to - segment.from;
-  const double length2 = dot(along, along);
-  const double share = length2 > 0.0 ? std::clamp(dot(p - segment.from, along) / length2, 0.0, 1.0) : 0.0;
-  return segment.from + along * share;
-}
-
-double distance(Vec2 p, const WallSegment& segment) noexcept { return distance(p, nearest_point(p, segment)); }
 
 double hit_range(Vec2 from, Vec2 direction, const WallSegment& segment) noexcept {
   // from + range d = segment.from + share e, solved by crossing both sides with e and with d.
@@ -125,10 +86,10 @@ WallMap load_aria_map(const std::filesystem::path& file) {
     if (line == "LINES" || line == "DATA") {
       section = line == "LINES" ? Section::kLines : Section::kData;
     } else if (section == Section::kLines) {
-      const auto v = reader.numbers(line, 4);
+      const auto v = lengths_in(line, 4, reader);
       map.segments.push_back({Vec2{v[0], v[1]} * kMetresPerMillimetre, Vec2{v[2], v[3]} * kMetresPerMillimetre});
     } else if (section == Section::kData) {
-      const auto v = reader.numbers(line, 2);
+      const auto v = lengths_in(line, 2, reader);
       points.push_back({Vec2{v[0], v[1]} * kMetresPerMillimetre, kDataPointRadius});
     } else {
       read_count(line, "NumLines:", lines_told);
@@ -148,7 +109,7 @@ WallMap load_cylinder_map(const std::filesystem::path& file) {
   for (std::string line; reader.next(line);) {
     line.erase(std::min(line.find('#'), line.size()));
     if (is_blank(line)) continue;
-    const auto v = reader.numbers(line, 3);
+    const auto v = lengths_in(line, 3, reader);
     if (!(v[2] > 0.0)) reader.refuse("a cylinder needs a radius above 0");
     map.discs.push_back({{v[0], v[1]}, v[2]});
   }

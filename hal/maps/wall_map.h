@@ -19,13 +19,9 @@ struct Disc {
   double radius_m = 0.0;
 };
 
-/// Nearest point of a segment.
-[[nodiscard]] Vec2 nearest_point(Vec2 p, const WallSegment& segment) noexcept;
-/// Distance (m) from a point to a segment.
 [[nodiscard]] double distance(Vec2 p, const WallSegment& segment) noexcept;
 
-/// Distance (m) along the ray (unit `direction`) to where it enters the shape; infinity when it misses. 0 from inside
-/// a disc.
+/// Distance (m) along the ray (unit `direction`) to the shape; infinity when it misses, 0 from inside a disc.
 [[nodiscard]] double hit_range(Vec2 from, Vec2 direction, const WallSegment& segment) noexcept;
 [[nodiscard]] double hit_range(Vec2 from, Vec2 direction, const Disc& disc) noexcept;
 
@@ -62,20 +58,14 @@ struct WallMap {
 /// Throws StartupError "FILE:LINE: cause; remedy" for a file that cannot be read or makes no sense.
 [[nodiscard]] WallMap load_wall_map(MapKind kind, const std::filesystem::path& file);
 
-/// What a map is read from: the file itself and, of a raster map, its picture. Throws as load_wall_map() does.
+/// The file itself and, of a raster map, its picture. Throws as load_wall_map() does.
 [[nodiscard]] std::vector<std::filesystem::path> files_of_map(MapKind kind, const std::filesystem::path& file);
 
 /// 500 m in cells of 5 cm: a raster takes two bytes a cell.
 inline constexpr std::int32_t kMostRasterCells = 10'000;
-/// ROS map_server: YAML with image, resolution, origin, negate, occupied_thresh, free_thresh, mode. A cell is a
-/// wall when its occupancy exceeds occupied_thresh; unknown cells are not walls. What has more cells a side than
-/// `most_cells` is read in larger ones (read_raster).
-[[nodiscard]] WallMap load_raster_map(const std::filesystem::path& yaml_file,
-                                      std::int32_t most_cells = kMostRasterCells);
-/// The same without the walls' edges.
+/// ROS map_server's YAML: a cell is a wall when its occupancy exceeds occupied_thresh; unknown ones are none. What
+/// has more cells a side than `most_cells` is read in larger ones (read_raster).
 [[nodiscard]] Raster load_raster(const std::filesystem::path& yaml_file, std::int32_t most_cells = kMostRasterCells);
-/// The picture that such a file names.
-[[nodiscard]] std::filesystem::path picture_of_raster_map(const std::filesystem::path& yaml_file);
 /// MobileSim's text map in millimetres: its LINES are walls; when it has none, its DATA points are, as discs.
 [[nodiscard]] WallMap load_aria_map(const std::filesystem::path& file);
 /// One cylinder a line: x y radius (m); # starts a comment.

@@ -50,7 +50,7 @@ void keep_positive(double from, double to, double& begin, double& end) {
 }  // namespace
 
 FreeGrid::FreeGrid(const Walls& walls, double radius_m, Vec2 start, Vec2 goal) : start_(start), goal_(goal) {
-  const Box& box = walls.bounds();
+  const Box2& box = walls.bounds();
   low_ = {std::min({box.low.x, start.x, goal.x}) - kMargin, std::min({box.low.y, start.y, goal.y}) - kMargin};
   const Vec2 high{std::max({box.high.x, start.x, goal.x}) + kMargin, std::max({box.high.y, start.y, goal.y}) + kMargin};
   const Vec2 size = high - low_;

@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <map>
-#include <sstream>
 #include <string>
 
 #include "hal/shown_text.h"
@@ -26,34 +24,16 @@ struct Row {
   double t_s, id, x_m, y_m;
 };
 
-constexpr const char* kMoverRows = "write rows of t_s,id,x_m,y_m below a line that says so";
-
-Row parse_row(const std::filesystem::path& file, int number, std::string line) {
-  std::replace(line.begin(), line.end(), ',', ' ');
-  std::istringstream words(line);
-  Row row{};
-  std::string rest;
-  const bool whole = static_cast<bool>(words >> row.t_s >> row.id >> row.x_m >> row.y_m) && !(words >> rest);
-  const bool sound = whole && std::fabs(row.t_s) < 1e7 && std::fabs(row.x_m) < 1e6 && std::fabs(row.y_m) < 1e6 &&
-                     row.id == std::floor(row.id) && std::fabs(row.id) < 1e15;
-  if (!sound) refuse_line(file, number, "\"" + shown(line) + "\" is not four numbers", kMoverRows);
-  return row;
-}
-
 std::vector<Row> read_rows(const std::filesystem::path& file) {
-  std::ifstream in(file);
+  LineReader reader(file, "write rows of t_s,id,x_m,y_m below a line that says so");
   std::vector<Row> rows;
-  std::string line;
-  int number = 0;
-  while (std::getline(in, line)) {
-    ++number;
-    if (!line.empty() && line.back() == '\r') line.pop_back();
-    if (number == 1) drop_byte_order_mark(line);
-    if (number == 1 && line == "t_s,id,x_m,y_m") continue;
-    if (number == 1) refuse_line(file, 1, "does not begin with t_s,id,x_m,y_m", kMoverRows);
-    if (!line.empty()) rows.push_back(parse_row(file, number, line));
-  }
-  if (rows.empty()) refuse_line(file, number, "holds nobody", kMoverRows);
+  reader.read_table("t_s,id,x_m,y_m", 4, [&](const std::vector<double>& v, const std::string& line) {
+    const bool sound = !v.empty() && std::fabs(v[0]) < 1e7 && std::fabs(v[2]) < 1e6 && std::fabs(v[3]) < 1e6 &&
+                       v[1] == std::floor(v[1]) && std::fabs(v[1]) < 1e15;
+    if (!sound) reader.refuse("\"" + shown(line) + "\" is not four numbers");
+    rows.push_back({v[0], v[1], v[2], v[3]});
+  });
+  if (rows.empty()) reader.refuse("holds nobody");
   return rows;
 }
 
@@ -68,7 +48,7 @@ bool has_room(Vec2 p, const Ground& ground, double radius_m, std::span<const Mov
 
 }  // namespace
 
-Vec2 free_place(const Ground& ground, const Box& within, double radius_m, std::span<const MoverTruth> placed,
+Vec2 free_place(const Ground& ground, const Box2& within, double radius_m, std::span<const MoverTruth> placed,
                 Random& random) {
   for (int k = 0; k < kPlacements; ++k) {
     const double x = random.uniform(within.low.x, within.high.x), y = random.uniform(within.low.y, within.high.y);

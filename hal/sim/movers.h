@@ -18,14 +18,12 @@ struct Ground {
   const FreeGrid& grid;
 };
 
-/// Returns a random place in `within` that leaves room to walls, start, goal and the movers `placed`. Throws
-/// StartupError where there is none.
-[[nodiscard]] Vec2 free_place(const Ground& ground, const Box& within, double radius_m,
+/// A random place in `within` with room to walls, start, goal and the movers `placed`. Throws StartupError without one.
+[[nodiscard]] Vec2 free_place(const Ground& ground, const Box2& within, double radius_m,
                               std::span<const MoverTruth> placed, Random& random);
 
-/// All wandering movers of a scenario. When a wall, another mover or the robot lies in a mover's zone (kWanderZone), it
-/// stops, turns in place to a random heading whose zone is free, and walks again. It is forced when the robot, and
-/// neither wall nor mover, made it turn.
+/// All wandering movers of a scenario. When anything lies in a mover's zone (kWanderZone), it stops, turns in place to
+/// a random heading whose zone is free, and walks again. It is forced when the robot alone made it turn.
 class Wanderers {
  public:
   /// Places them at random. Throws StartupError when there is no room. The ground's walls outlive this.
@@ -41,7 +39,6 @@ class Wanderers {
   void step(double step_s, const RobotBody& robot, std::span<const MoverTruth> others) noexcept;
 
   [[nodiscard]] std::span<const MoverTruth> movers() const noexcept { return movers_; }
-  /// How often a mover was forced.
   [[nodiscard]] std::uint32_t forced() const noexcept { return forced_; }
   /// True when in the last step a mover ran into the robot.
   [[nodiscard]] bool bumped_robot() const noexcept { return bumped_robot_; }
@@ -75,9 +72,8 @@ class Wanderers {
   bool bumped_robot_ = false;
 };
 
-/// People who walked somewhere once and walk so again: straight between the recorded places, there from their first
-/// row to their last. They heed nobody. A person counts as forced when the robot comes into the zone ahead
-/// (kRecordedZone); standing ones look where they last walked.
+/// People who walk as recorded, straight from place to place, from their first row to their last, and heed nobody. One
+/// counts as forced when the robot comes into its zone (kRecordedZone); standing ones look where they last walked.
 class RecordedMovers {
  public:
   /// Reads t_s,id,x_m,y_m files; the simulation's movers get the ids after `last_id`. Throws StartupError.
@@ -85,8 +81,7 @@ class RecordedMovers {
 
   void place(double now_s, const RobotBody& robot) noexcept;
 
-  /// The movers that are there now.
-  [[nodiscard]] std::span<const MoverTruth> movers() const noexcept { return present_; }
+  [[nodiscard]] std::span<const MoverTruth> movers() const noexcept { return present_; }  ///< there now
   /// Most that can be there at once.
   [[nodiscard]] std::size_t capacity() const noexcept { return people_.size(); }
   [[nodiscard]] std::uint32_t forced() const noexcept { return forced_; }

@@ -8,13 +8,13 @@ namespace jaywalk::sim {
 
 Plant::Plant(const RobotModel& model, const Pose2& start, std::uint64_t seed, const SlipSpec& slip,
              const TrueRobot& truth)
-    : left_radius_m_(truth.left_wheel_radius_m.value_or(model.drive.wheel_radius_m)),
-      right_radius_m_(truth.right_wheel_radius_m.value_or(model.drive.wheel_radius_m)),
-      track_m_(truth.track_width_m.value_or(model.drive.track_width_m)),
+    : track_m_(truth.track_width_m.value_or(model.drive.track_width_m)),
       max_speed_(model.drive.max_wheel_speed_radps),
       max_accel_(kAccelOverBrake * model.limits.brake_mps2 / model.drive.wheel_radius_m),
       slip_(slip),
       map_from_robot_(start),
+      left_{truth.left_wheel_radius_m.value_or(model.drive.wheel_radius_m)},
+      right_{truth.right_wheel_radius_m.value_or(model.drive.wheel_radius_m)},
       random_(seed, Purpose::kSlip) {}
 
 void Plant::command(const WheelCommand& command, Time now) noexcept {
@@ -32,7 +32,7 @@ double Plant::turn(Wheel& wheel, double step_s, bool alive) const noexcept {
   wheel.speed += accel * step_s;
   const double turned = 0.5 * (before + wheel.speed) * step_s;
   wheel.angle += turned;
-  return turned;
+  return turned * wheel.radius_m * (1.0 - slip_.mean - wheel.slip) * wheel.grip;
 }
 
 /// The ground passes l and r under the two wheels: the middle moves (l + r)/2 and turns (r - l)/track; the step runs
@@ -40,9 +40,7 @@ double Plant::turn(Wheel& wheel, double step_s, bool alive) const noexcept {
 void Plant::step(double step_s, Time now) noexcept {
   const bool alive = age(commanded_, now) <= kDriveWatchdog;
   if (wiring_.left_stuck) left_.speed = left_.wanted = 0.0;
-  double left = turn(left_, step_s, alive) * left_radius_m_ * (1.0 - slip_.mean - left_.slip) * left_grip_;
-  double right = turn(right_, step_s, alive) * right_radius_m_ * (1.0 - slip_.mean - right_.slip) * right_grip_;
-  left *= wiring_.left_ground;
+  double left = turn(left_, step_s, alive) * wiring_.left_ground, right = turn(right_, step_s, alive);
   if (wiring_.swapped) std::swap(left, right);
   const double forward = 0.5 * (left + right), turned = (right - left) / track_m_;
   twist_ = {forward / step_s, turned / step_s};

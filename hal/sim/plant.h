@@ -31,8 +31,7 @@ struct Miswiring {
   bool left_stuck = false;   ///< its motor does not turn
 };
 
-/// A differential drive: two motors with lag, saturation and bounded acceleration, wheels that slip a little, encoders
-/// that count whole ticks of the wheels' turning. Equations in plant.cc.
+/// A differential drive: two motors with lag, saturation and bounded acceleration, wheels that slip a little, encoders.
 class Plant {
  public:
   Plant(const RobotModel& model, const Pose2& start, std::uint64_t seed, const SlipSpec& slip = {},
@@ -45,7 +44,7 @@ class Plant {
   /// Draws new slip; `step_s` since the last time.
   void change_slip(double step_s) noexcept;
   /// What share of its turning each wheel moves the robot by.
-  void grip(double left, double right) noexcept { left_grip_ = left, right_grip_ = right; }
+  void grip(double left, double right) noexcept { left_.grip = left, right_.grip = right; }
   void connect(const Miswiring& wiring) noexcept { wiring_ = wiring; }
   /// A person lifts the robot: nothing turns its wheels, and whatever they do moves nothing.
   void carry_to(const Pose2& pose) noexcept { map_from_robot_ = pose; }
@@ -58,25 +57,26 @@ class Plant {
   [[nodiscard]] const Twist2& twist() const noexcept { return twist_; }
   /// Mean speed (m/s) at the wheels' rims: forward speed without slip.
   [[nodiscard]] double rim_speed() const noexcept {
-    return 0.5 * (left_radius_m_ * left_.speed + right_radius_m_ * right_.speed);
+    return 0.5 * (left_.radius_m * left_.speed + right_.radius_m * right_.speed);
   }
 
  private:
   struct Wheel {
+    double radius_m;
+    double grip = 1.0;
     double wanted = 0.0;  ///< rad/s
     double speed = 0.0;   ///< rad/s
     double angle = 0.0;   ///< rad
     double slip = 0.0;    ///< share of its speed that the ground does not see, beyond the mean
   };
-  /// Turns the wheel for one step and returns the angle (rad).
+  /// Turns the wheel for one step and returns the way (m) that the ground passes.
   double turn(Wheel& wheel, double step_s, bool alive) const noexcept;
 
-  double left_radius_m_, right_radius_m_, track_m_, max_speed_, max_accel_;
+  double track_m_, max_speed_, max_accel_;
   SlipSpec slip_;
   Pose2 map_from_robot_;
   Twist2 twist_;
   Wheel left_, right_;
-  double left_grip_ = 1.0, right_grip_ = 1.0;
   Miswiring wiring_;
   Time commanded_ = kNever;
   WheelState reading_;

@@ -1,6 +1,5 @@
 #pragma once
-// A scenario file (TOML, documented in docs/reference/scenarios.md): the world, the robot in it, what moves,
-// what goes wrong. Loading refuses everything it does not understand.
+// A scenario file (docs/reference/scenarios.md): the world, the robot in it, what moves, what goes wrong.
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -121,7 +120,6 @@ struct StickSpec {
   std::filesystem::path file{};  ///< of a table
 };
 
-/// As flat as the file is read; its tables are structs of their own: more fields than a struct has elsewhere.
 struct Scenario {
   std::string name;
   std::uint64_t seed = 1;
@@ -149,11 +147,9 @@ struct Scenario {
   std::vector<FaultSpec> faults;
 };
 
-/// Its keys (hal/setting_keys.h).
 [[nodiscard]] const FileKeys& scenario_keys();
 
-/// Throws StartupError "FILE:LINE: cause; remedy" for anything wrong: unreadable file, unknown key, wrong type,
-/// value out of range, missing key, missing map file. `settings`, KEY=VALUE each, stand in place of the file's own.
+/// Throws StartupError "FILE:LINE: cause; remedy". `settings`, KEY=VALUE each, stand in place of the file's own.
 [[nodiscard]] Scenario load_scenario(const std::filesystem::path& file, const std::vector<std::string>& settings = {});
 
 }  // namespace jaywalk::sim

@@ -65,16 +65,22 @@ const std::vector<SettingKey> kReportKeys =
                  {number_row("period_ms", {1.0, 250.0}, "ms", 1e3 * ReportSpec{}.period_s, "between two"),
                   number_row("late_ms", {0.0, 200.0}, "ms", 1e3 * ReportSpec{}.late_s, "each comes up to so late")});
 
-const std::vector<SettingKey> kTruthKeys = section_keys(
+const BoundKeys<TrueRobot> kTruthKeys(
     "robot.truth",
-    {number_row("left_wheel_radius_m", kWheel, "m", kModels, "of the left wheel"),
-     number_row("right_wheel_radius_m", kWheel, "m", kModels, "of the right wheel"),
-     number_row("track_width_m", kTrack, "m", kModels, "between the wheels' contact points"),
-     key_row("laser_mount", kNumbers, kModels, "[x, y, yaw] of the first laser on the robot", "m, m, rad")});
+    {number_row("left_wheel_radius_m", &TrueRobot::left_wheel_radius_m, kWheel, "m", kModels, "of the left wheel"),
+     number_row("right_wheel_radius_m", &TrueRobot::right_wheel_radius_m, kWheel, "m", kModels, "of the right wheel"),
+     number_row("track_width_m", &TrueRobot::track_width_m, kTrack, "m", kModels, "between the wheels' contact points"),
+     {key_row("laser_mount", kNumbers, kModels, "[x, y, yaw] of the first laser on the robot", "m, m, rad"),
+      [](TomlTable& table, TrueRobot& truth) {
+        if (!table.has("laser_mount")) return;
+        const auto mount = table.place_in_map("laser_mount", 3);
+        truth.robot_from_laser = {mount[0], mount[1], wrap_angle(mount[2])};
+      }}});
 
 const BoundKeys<PoseSourceSpec> kPoseSourceKeys(
     "robot.pose_source",
-    {key_row("enabled", kBoolean, true, "false: as if the table were missing"),
+    {{key_row("enabled", kBoolean, true, "false: as if the table were missing"),
+      [](TomlTable& table, PoseSourceSpec& spec) { spec.enabled = table.boolean("enabled"); }},
      number_row("rate_hz", &PoseSourceSpec::rate_hz, {0.1, 100.0}, "1/s", "fixes a second"),
      number_row("position_std_m", &PoseSourceSpec::position_std_m, {0.0, 10.0}, "m", "noise of the robot's x and y"),
      number_row("heading_std_rad", &PoseSourceSpec::heading_std_rad, {0.0, 3.0}, "rad", "noise of its heading"),
@@ -97,7 +103,7 @@ const std::vector<SettingKey> kPushKeys{
     number_row("forward", {0.0, 1.0}, "", StickSpec{}.forward, "how far it is pushed")};
 
 const BoundKeys<WanderSpec> kWanderKeys(
-    "movers:wander", {whole_row("count", {0.0, 500.0}, "", kNeeded, "how many"),
+    "movers:wander", {with_default(whole_row("count", &WanderSpec::count, {0.0, 500.0}, "", "how many"), kNeeded),
                       number_row("speed_mps", &WanderSpec::speed_mps, {0.0, 5.0}, "m/s", "constant while walking"),
                       number_row("radius_m", &WanderSpec::radius_m, kRadius, "m", "of the disc"),
                       number_row("turn_rate_radps", &WanderSpec::turn_rate_radps, {0.01, 50.0}, "rad/s", "in place"),
@@ -106,35 +112,46 @@ const BoundKeys<WanderSpec> kWanderKeys(
                       boolean_row("legs", &WanderSpec::legs, kLegs)});
 
 const BoundKeys<SocialSpec> kSocialKeys(
-    "movers:social", {whole_row("count", {0.0, 500.0}, "", kNeeded, "how many"),
+    "movers:social", {with_default(whole_row("count", &SocialSpec::count, {0.0, 500.0}, "", "how many"), kNeeded),
                       number_row("speed_mps", &SocialSpec::speed_mps, {0.1, 3.0}, "m/s",
                                  "mean of the wished speeds, which differ by 19 %"),
                       number_row("radius_m", &SocialSpec::radius_m, kRadius, "m", "of the disc"),
                       whole_row("group", &SocialSpec::group, {1.0, 10.0}, "", "so many walk together"),
-                      choice_row("reaction", "regular", "what the sight of the robot does; mixed: each in turn",
-                                 // in the order of Reaction
-                                 {"regular", "surprised", "curious", "afraid", "hurried", "mixed"}),
+                      {choice_row("reaction", "regular", "what the sight of the robot does; mixed: each in turn",
+                                  // in the order of Reaction
+                                  {"regular", "surprised", "curious", "afraid", "hurried", "mixed"}),
+                       [](TomlTable& table, SocialSpec& spec) {
+                         if (table.has("reaction")) spec.reaction = static_cast<Reaction>(table.choice("reaction"));
+                       }},
                       boolean_row("legs", &SocialSpec::legs, kLegs)});
 
 const BoundKeys<RecordedSpec> kRecordedKeys(
     "movers:recorded",
-    {key_row("file", kFile, kNeeded, "rows of t_s,id,x_m,y_m below a line that says so"),
+    {{key_row("file", kFile, kNeeded, "rows of t_s,id,x_m,y_m below a line that says so"),
+      [](TomlTable& table, RecordedSpec& spec) { spec.file = table.existing_file("file"); }},
      number_row("radius_m", &RecordedSpec::radius_m, kRadius, "m", "of the disc"),
-     key_row("offset", kNumbers, "[0, 0]", "[x, y] added to every place", "m, m"),
+     {key_row("offset", kNumbers, "[0, 0]", "[x, y] added to every place", "m, m"),
+      [](TomlTable& table, RecordedSpec& spec) {
+        if (!table.has("offset")) return;
+        const auto offset = table.numbers("offset", 2);
+        spec.offset = {offset[0], offset[1]};
+      }},
      number_row("start_at_s", &RecordedSpec::start_at_s, {-86400.0, 86400.0}, "s", "when the first row happens"),
      boolean_row("loop", &RecordedSpec::loop, "begins anew after the last row"),
      boolean_row("legs", &RecordedSpec::legs, kLegs)});
 
-const std::vector<SettingKey> kFaultKeys = section_keys(
+const BoundKeys<FaultSpec> kFaultKeys(
     "faults",
     {choice_row("kind", kNeeded, "what goes wrong (scenarios.md says what each does)",
                 // in the order of FaultKind
                 {"scan_stale", "scan_nan", "scan_short", "scan_frozen", "beams_lost", "wheels_stale", "wheel_slip",
                  "emergency_stop", "no_grip", "both_motors_reversed", "left_motor_reversed", "left_wheel_reversed",
                  "wheels_swapped", "left_wheel_stuck", "scanner_mirrored", "carried", "rain"}),
-     number_row("at_s", kSeconds, "s", kNeeded, "when it begins"),
-     number_row("for_s", kSeconds, "s", kNeeded, "how long it lasts"),
-     whole_row("scanner", {1.0, static_cast<double>(kMostScanners)}, "", "all", "which scanner has it")});
+     with_default(number_row("at_s", &FaultSpec::at_s, kSeconds, "s", "when it begins"), kNeeded),
+     with_default(number_row("for_s", &FaultSpec::for_s, kSeconds, "s", "how long it lasts"), kNeeded),
+     with_default(whole_row("scanner", &FaultSpec::scanner, {1.0, static_cast<double>(kMostScanners)}, "",
+                            "which scanner has it"),
+                  "all")});
 
 const std::vector<SettingKey> kLostBeamsKeys = section_keys(
     "faults:beams_lost",
@@ -161,14 +178,6 @@ void read_map(TomlTable table, Scenario& scenario) {
   if (found != 1) table.refuse("yaml", "or aria or cylinders: one is needed", "name exactly one map");
 }
 
-PoseSourceSpec read_pose_source(TomlTable table) {
-  PoseSourceSpec spec;
-  spec.enabled = table.boolean("enabled");
-  kPoseSourceKeys.read(table, spec);
-  table.finish();
-  return spec;
-}
-
 /// The robot knows it of its drive.
 ReportSpec read_reports(TomlTable table, DriveTimes& known) {
   const ReportSpec spec{1e-3 * table.number("period_ms"), 1e-3 * table.number("late_ms")};
@@ -176,22 +185,6 @@ ReportSpec read_reports(TomlTable table, DriveTimes& known) {
   known.late_s = spec.late_s;
   table.finish();
   return spec;
-}
-
-TrueRobot read_truth(TomlTable table) {
-  TrueRobot truth;
-  const auto read = [&table](const char* key, std::optional<double>& into) {
-    if (table.has(key)) into = table.number(key);
-  };
-  read("left_wheel_radius_m", truth.left_wheel_radius_m);
-  read("right_wheel_radius_m", truth.right_wheel_radius_m);
-  read("track_width_m", truth.track_width_m);
-  if (table.has("laser_mount")) {
-    const auto mount = table.place_in_map("laser_mount", 3);
-    truth.robot_from_laser = {mount[0], mount[1], wrap_angle(mount[2])};
-  }
-  table.finish();
-  return truth;
 }
 
 RobotModel read_model(TomlTable& table) {
@@ -217,9 +210,9 @@ void read_robot(TomlTable table, Scenario& scenario) {
   scenario.comfort = read_comfort(table);
   scenario.model.limits = limits_for(scenario.comfort, scenario.model);
   if (table.has("slip")) scenario.slip = kSlipKeys.read(table.table("slip"));
-  if (table.has("truth")) scenario.truth = read_truth(table.table("truth"));
+  if (table.has("truth")) scenario.truth = kTruthKeys.read(table.table("truth"));
   if (table.has("reports")) scenario.reports = read_reports(table.table("reports"), scenario.model.drive.times);
-  if (table.has("pose_source")) scenario.pose_source = read_pose_source(table.table("pose_source"));
+  if (table.has("pose_source")) scenario.pose_source = kPoseSourceKeys.read(table.table("pose_source"));
   table.finish();
 }
 
@@ -236,43 +229,17 @@ StickSpec read_stick(TomlTable table) {
   return spec;
 }
 
-RecordedSpec read_recorded(TomlTable& table) {
-  RecordedSpec spec;
-  spec.file = table.existing_file("file");
-  if (table.has("offset")) {
-    const auto offset = table.numbers("offset", 2);
-    spec.offset = {offset[0], offset[1]};
-  }
-  kRecordedKeys.read(table, spec);
-  return spec;
-}
-
-SocialSpec read_social(TomlTable& table) {
-  SocialSpec spec{.count = static_cast<int>(table.integer("count"))};
-  if (table.has("reaction")) spec.reaction = static_cast<Reaction>(table.choice("reaction"));
-  kSocialKeys.read(table, spec);
-  return spec;
-}
-
 void read_movers(TomlTable& table, Scenario& scenario) {
   const std::size_t kind = table.choose_keys("kind");
-  if (kind == 0) {
-    scenario.wanderers.push_back({.count = static_cast<int>(table.integer("count"))});
-    kWanderKeys.read(table, scenario.wanderers.back());
-  } else if (kind == 1) {
-    scenario.recorded.push_back(read_recorded(table));
-  } else {
-    scenario.social.push_back(read_social(table));
-  }
-  table.finish();
+  if (kind == 0) scenario.wanderers.push_back(kWanderKeys.read(table));
+  if (kind == 1) scenario.recorded.push_back(kRecordedKeys.read(table));
+  if (kind == 2) scenario.social.push_back(kSocialKeys.read(table));
 }
 
 FaultSpec read_fault(TomlTable& table) {
   FaultSpec spec;
   spec.kind = static_cast<FaultKind>(table.choose_keys("kind"));  // the choices are in the enumeration's order
-  spec.at_s = table.number("at_s");
-  spec.for_s = table.number("for_s");
-  if (table.has("scanner")) spec.scanner = static_cast<int>(table.integer("scanner"));
+  kFaultKeys.read(table, spec);
   if (spec.kind == FaultKind::kBeamsLost && (table.has("from_deg") || table.has("to_deg")))
     spec.lost = read_sector(table);
   if (spec.kind == FaultKind::kBeamsLost) spec.claims_free = table.boolean("claims_free");
@@ -295,7 +262,7 @@ const FileKeys& scenario_keys() {
        kTurningKeys.keys(),
        kSlipKeys.keys(),
        kReportKeys,
-       kTruthKeys,
+       kTruthKeys.keys(),
        kPoseSourceKeys.keys(),
        laser_keys("robot.laser"),
        zone_keys(),
@@ -310,7 +277,7 @@ const FileKeys& scenario_keys() {
        kWanderKeys.keys(),
        kRecordedKeys.keys(),
        kSocialKeys.keys(),
-       kFaultKeys,
+       kFaultKeys.keys(),
        kLostBeamsKeys,
        section_keys("faults:carried",
                     {key_row("way", kNumbers, kNeeded, "x, y, heading of where it is put down, from where it stood",

@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <limits>
-#include <sstream>
 #include <string>
 
 #include "hal/shown_text.h"
@@ -57,21 +55,6 @@ LaserSim::LaserSim(const LaserModel& model, std::uint64_t seed, std::uint64_t in
     in_laser_[k] = direction(-0.5 * model.fov_rad + static_cast<double>(k) * step);
 }
 
-void LaserSim::see_walls(const Walls& walls, const Pose2& map_from_laser) noexcept {
-  const Transform2 to_map(map_from_laser);
-  for (std::size_t k = 0; k < in_map_.size(); ++k) {
-    in_map_[k] = to_map.rotate(in_laser_[k]);
-    range_[k] = walls.cast(map_from_laser.position(), in_map_[k], model_.range_max_m);
-  }
-}
-
-void LaserSim::see(const Disc& mover, Vec2 laser_in_map) noexcept {
-  const double nearest = distance(laser_in_map, mover.centre) - mover.radius_m;
-  if (nearest > model_.range_max_m) return;
-  for (std::size_t k = 0; k < in_map_.size(); ++k)
-    range_[k] = std::min(range_[k], hit_range(laser_in_map, in_map_[k], mover));
-}
-
 float LaserSim::measured(double range) noexcept {
   const bool lost = loss_.uniform() < model_.drop_out;
   const double noisy = range + model_.noise_m * noise_.normal();
@@ -82,8 +65,17 @@ float LaserSim::measured(double range) noexcept {
 void LaserSim::sweep(const Walls& walls, std::span<const Disc> movers, const Pose2& map_from_robot, Time now,
                      LaserScan& scan) noexcept {
   const Pose2 map_from_laser = map_from_robot * model_.robot_from_laser;
-  see_walls(walls, map_from_laser);
-  for (const Disc& mover : movers) see(mover, map_from_laser.position());
+  const Transform2 to_map(map_from_laser);
+  const Vec2 laser = map_from_laser.position();
+  for (std::size_t k = 0; k < in_map_.size(); ++k) {
+    in_map_[k] = to_map.rotate(in_laser_[k]);
+    range_[k] = walls.cast(laser, in_map_[k], model_.range_max_m);
+  }
+  for (const Disc& mover : movers) {
+    if (distance(laser, mover.centre) - mover.radius_m > model_.range_max_m) continue;
+    for (std::size_t k = 0; k < in_map_.size(); ++k)
+      range_[k] = std::min(range_[k], hit_range(laser, in_map_[k], mover));
+  }
   write(now, Duration{0}, scan);
 }
 
@@ -115,12 +107,6 @@ void LaserSim::write(Time stamp, Duration sweep, LaserScan& scan) noexcept {
   scan.sweep = sweep;
   scan.period = duration_from_seconds(1.0 / model_.rate_hz);
   for (std::size_t k = 0; k < range_.size(); ++k) scan.range_m[k] = measured(range_[k]);
-}
-
-bool Metronome::due(Time now) noexcept {
-  const bool is_due = now >= time_from_seconds(beats_ / rate_hz_);
-  if (is_due) beats_ += 1.0;
-  return is_due;
 }
 
 Sensors::Sensors(const Scenario& scenario, std::uint64_t seed)
@@ -238,28 +224,14 @@ ScriptedStick::ScriptedStick(const StickSpec& spec, const Scenario& scenario, st
       meant_(kRemembered),
       random_(seed, Purpose::kStick) {
   if (spec.kind != StickKind::kTable) return;
-  std::ifstream in(spec.file);
-  std::string line;
-  for (int number = 1; std::getline(in, line); ++number) {
-    if (!line.empty() && line.back() == '\r') line.pop_back();
-    if (number == 1) {
-      drop_byte_order_mark(line);
-      if (line != "t_s,forward,left") refuse_line(spec.file, 1, "does not begin with t_s,forward,left", kStickRows);
-      continue;
-    }
-    if (line.empty()) continue;
-    std::string words = line, rest;
-    std::replace(words.begin(), words.end(), ',', ' ');
-    std::istringstream numbers(words);
-    Row row;
-    const bool whole =
-        static_cast<bool>(numbers >> row.t_s >> row.stick.forward >> row.stick.left) && !(numbers >> rest);
-    const bool rises = table_.empty() || row.t_s > table_.back().t_s;
-    if (!whole || !rises || !(std::fabs(row.stick.forward) <= 1.0) || !(std::fabs(row.stick.left) <= 1.0))
-      refuse_line(spec.file, number, "\"" + shown(line) + "\" is no row of it", kStickRows);
-    table_.push_back(row);
-  }
-  if (table_.empty()) refuse_line(spec.file, 0, "holds no row", kStickRows);
+  LineReader reader(spec.file, kStickRows);
+  reader.read_table("t_s,forward,left", 3, [&](const std::vector<double>& v, const std::string& line) {
+    const bool sound =
+        !v.empty() && (table_.empty() || v[0] > table_.back().t_s) && std::fabs(v[1]) <= 1.0 && std::fabs(v[2]) <= 1.0;
+    if (!sound) reader.refuse("\"" + shown(line) + "\" is no row of it");
+    table_.push_back({v[0], {v[1], v[2]}});
+  });
+  if (table_.empty()) throw StartupError(spec.file.string() + ": holds no row", kStickRows);
 }
 
 Stick ScriptedStick::at(const Truth& truth) noexcept {

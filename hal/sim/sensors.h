@@ -17,8 +17,7 @@
 namespace jaywalk::sim {
 
 /// A planar laser: every beam at once, or one after another as it turns; Gaussian range noise, beams that get lost.
-/// What lies beyond its range gives infinity; what is too near and a lost beam give 0 (LaserScan). Memory is taken at
-/// construction.
+/// Ranges as LaserScan has them. Memory is taken at construction.
 class LaserSim {
  public:
   /// `index` tells apart the noise of several.
@@ -34,15 +33,12 @@ class LaserSim {
   }
   /// Begins a turn: forgets what was measured.
   void begin_turn(Time now) noexcept { began_ = now, measured_ = 0; }
-  /// Measures the beams whose time has come, from where the robot stands now. With the last it writes the scan, stamped
-  /// when the turn began, and returns true.
+  /// Measures the beams whose time has come. With the last it writes the scan, of the turn's begin, and returns true.
   bool turn(const Walls& walls, std::span<const Disc> movers, const Pose2& map_from_robot, Time now,
             LaserScan& scan) noexcept;
 
  private:
   void write(Time stamp, Duration sweep, LaserScan& scan) noexcept;
-  void see_walls(const Walls& walls, const Pose2& map_from_laser) noexcept;
-  void see(const Disc& mover, Vec2 laser_in_map) noexcept;
   [[nodiscard]] float measured(double range) noexcept;
 
   LaserModel model_;
@@ -59,11 +55,14 @@ class LaserSim {
 class Metronome {
  public:
   explicit Metronome(double rate_hz, double phase = 0.0) : rate_hz_(rate_hz), beats_(phase) {}
-  [[nodiscard]] bool due(Time now) noexcept;
+  [[nodiscard]] bool due(Time now) noexcept {
+    const bool is_due = now >= time_from_seconds(beats_ / rate_hz_);
+    if (is_due) beats_ += 1.0;
+    return is_due;
+  }
 
  private:
-  double rate_hz_;
-  double beats_;
+  double rate_hz_, beats_;
 };
 
 class Sensors {
@@ -100,19 +99,14 @@ class Sensors {
   std::vector<Scanner> scanners_;
   Metronome encoder_beat_, fix_beat_;
   Random fix_noise_, delay_;
-  static constexpr std::size_t kMostUnderWay = 256;
-  FixedVector<WheelState, kMostUnderWay>
-      under_way_;  ///< readings that come late; of [robot.reports]: 1 ms, 200 ms late
+  static constexpr std::size_t kMostUnderWay = 256;   ///< of [robot.reports]: 1 ms, 200 ms late
+  FixedVector<WheelState, kMostUnderWay> under_way_;  ///< readings that come late
   WheelState wheels_;
   OutsideFix fix_;
 };
 
-// A person with a stick, scripted: what drives a simulated robot by hand, so that anyone can repeat it.
-
-struct Truth;
-
-/// Holds a stick full ahead whatever comes, points it at the goal, or moves it by a table. What the hand does comes
-/// late, and trembles. Thread: the simulation's.
+/// A scripted person who holds a stick full ahead, points it at the goal, or moves it by a table. What the hand does
+/// comes late, and trembles. Thread: the simulation's.
 class ScriptedStick {
  public:
   /// Throws StartupError for a table that is none.

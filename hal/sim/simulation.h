@@ -1,6 +1,5 @@
 #pragma once
-// The simulated robot in its world, behind the HAL. Time stands still until the controller sleeps;
-// then the world moves on, plant and movers in small fixed steps. One seed decides everything.
+// The simulated robot in its world, behind the HAL; one seed decides it. Time stands still until the controller sleeps.
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -23,7 +22,7 @@ struct MoverTruth {
   bool forced = false;   ///< true from the moment the robot made it turn until it walks again
 };
 
-/// What is really so, for the report. The controller never sees it.
+/// State of the world for the report. The controller never sees it.
 struct Truth {
   Time now = kNever;
   Pose2 map_from_robot;
@@ -40,8 +39,7 @@ struct Truth {
 
 class Simulation {
  public:
-  /// Builds the world and places the movers. Throws StartupError for a world that cannot be: an unreadable map,
-  /// a start or goal in a wall or far off the map, no room for the movers.
+  /// Throws StartupError for a world that cannot be (World).
   Simulation(const Scenario& scenario, std::uint64_t seed);
   ~Simulation();
 
@@ -50,19 +48,15 @@ class Simulation {
 
   // Changes to an endless world (jaywalk sim --endless), between two ticks.
 
-  /// Begins a fault that lasts `for_s` seconds, with FaultSpec's defaults. kCarried moves the robot 1 m ahead and turns
-  /// it by 1 rad.
+  /// With FaultSpec's defaults; kCarried moves the robot 1 m ahead and turns it by 1 rad.
   void begin_fault(FaultKind kind, double for_s);
-  /// Adds a wandering mover of the scenario's first kind at a random place, 2 m or more from the robot. False where
-  /// there is no room.
+  /// Adds a wandering mover of the scenario's first kind, 2 m or more from the robot. False where there is no room.
   [[nodiscard]] bool add_walker();
   /// Removes the newest wandering mover. False where there is none.
   [[nodiscard]] bool remove_walker() noexcept;
 
-  /// Length (m) of the shortest path for the footprint's inscribed circle from start to goal among the walls alone;
-  /// infinity where there is none.
+  /// Length (m) of the shortest path of the footprint's inscribed circle among the walls alone; infinity without one.
   [[nodiscard]] double static_shortest_path_m() const;
-  /// Walls as drawn in a picture.
   [[nodiscard]] std::span<const WallSegment> walls() const noexcept;
   /// The wandering rule's geometry in words, for summary.json.
   [[nodiscard]] static std::string mover_rule();

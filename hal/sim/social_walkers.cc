@@ -77,7 +77,7 @@ constexpr double kFear_m2ps2 = 20.0 * 0.2;  // times 1 / distance: its further f
 // HuNavSim has no hurried one: it walks at the greatest speed, and heeds the robot as a wall, as the impassive does.
 
 /// Turns the nearest point of a wall into the way from it.
-Vec2 away_from(Vec2 p, const WallSegment& wall) { return p - nearest_point(p, wall); }
+Vec2 away_from(Vec2 p, const WallSegment& wall) { return p - nearest_on_segment(p, wall.from, wall.to); }
 Vec2 away_from(Vec2 p, const Disc& pillar) { return social::between_outlines(p - pillar.centre, pillar.radius_m); }
 
 }  // namespace
@@ -100,7 +100,7 @@ SocialWalkers::SocialWalkers(const Ground& ground, std::uint64_t seed, std::uint
 void SocialWalkers::place(const SocialSpec& spec, const Ground& ground, std::size_t leader,
                           std::span<const MoverTruth> placed, Random random) {
   const std::size_t self = movers_.size();
-  Box within = walls_.bounds();
+  Box2 within = walls_.bounds();
   if (leader != self) {
     const Vec2 room{kGroupRoom_m, kGroupRoom_m}, middle = movers_[leader].position;
     within = {middle - room, middle + room};

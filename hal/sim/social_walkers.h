@@ -26,8 +26,7 @@ inline constexpr double kHalfSight_rad = 100.0 / 180.0 * kPi;
 
 /// Force towards a wished velocity (eq. 2).
 [[nodiscard]] Vec2 towards(Vec2 wished_mps, Vec2 velocity_mps) noexcept;
-/// Repulsive force of another pedestrian that moves at `velocity_mps` (eqs. 3 and 4). `apart_m`: vector from the other
-/// pedestrian to this one.
+/// Repulsive force of another pedestrian that moves at `velocity_mps` (eqs. 3 and 4). `apart_m`: from it to this one.
 [[nodiscard]] Vec2 away_from_walker(Vec2 apart_m, Vec2 velocity_mps) noexcept;
 /// Force away from a wall's nearest point (eq. 5). `apart_m`: from that point to the pedestrian.
 [[nodiscard]] Vec2 away_from_wall(Vec2 apart_m) noexcept;
@@ -44,12 +43,10 @@ namespace jaywalk::sim {
 
 /// All social movers of a scenario. Each walks straight to a random place in its view, and then to another; forces of
 /// walls, movers and the robot (above) turn it aside. Its reaction to the sight of the robot is HuNavSim's
-/// (Perez-Higueras and others 2023; defaults of its loader), once in a run. A mover counts as forced as a recorded one
-/// does.
+/// (Perez-Higueras and others 2023; defaults of its loader), once in a run. It is forced as recorded ones are.
 class SocialWalkers {
  public:
-  /// Places them at random, beside the movers `placed`; ids follow `last_id`. Throws StartupError when there is no
-  /// room. The ground's walls and grid outlive this.
+  /// Beside the movers `placed`; ids follow `last_id`. Throws StartupError without room. The ground outlives this.
   SocialWalkers(const Ground& ground, std::uint64_t seed, std::uint32_t last_id, std::span<const MoverTruth> placed);
 
   /// Moves all on by `step_s`. `others` are movers of other kinds.

@@ -9,19 +9,22 @@ namespace {
 constexpr double kFinestBucket = 0.5;       // m: measured best of 0.25, 0.5 and 1 on the project's maps
 constexpr double kMostBucketsASide = 2000;  // larger worlds get larger buckets
 
-void widen(Box& box, Vec2 p) {
-  box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y)};
-  box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y)};
+Box2 box_of(const WallSegment& s) {
+  Box2 box{s.from, s.from};
+  box.hold(s.to);
+  return box;
+}
+Box2 box_of(const Disc& d) {
+  const Vec2 r{d.radius_m, d.radius_m};
+  return {d.centre - r, d.centre + r};
 }
 
-Box box_round(const WallMap& map) {
-  Box box{{kInfinity, kInfinity}, {-kInfinity, -kInfinity}};
-  for (const WallSegment& s : map.segments) widen(box, s.from), widen(box, s.to);
-  for (const Disc& d : map.discs) {
-    widen(box, d.centre - Vec2{d.radius_m, d.radius_m});
-    widen(box, d.centre + Vec2{d.radius_m, d.radius_m});
-  }
-  return box.low.x <= box.high.x ? box : Box{};
+Box2 box_round(const WallMap& map) {
+  Box2 all;
+  const auto hold = [&all](const Box2& box) { all.hold(box.low), all.hold(box.high); };
+  for (const WallSegment& s : map.segments) hold(box_of(s));
+  for (const Disc& d : map.discs) hold(box_of(d));
+  return all.is_empty() ? Box2{{}, {}} : all;
 }
 
 double surface_distance(Vec2 p, const WallSegment& segment) { return distance(p, segment); }
@@ -44,7 +47,7 @@ Axis axis_of(double from, double slope, double low, double bucket_m, std::int32_
 }
 
 /// Range at which a ray enters the box, 0 from inside; infinity when it misses.
-double enters_at(const Box& box, Vec2 from, Vec2 direction) {
+double enters_at(const Box2& box, Vec2 from, Vec2 direction) {
   double begin = 0.0, end = kInfinity;
   const auto narrow = [&](double p, double slope, double low, double high) {
     if (slope == 0.0) {
@@ -63,13 +66,8 @@ double enters_at(const Box& box, Vec2 from, Vec2 direction) {
 /// Footprint and wall in the robot's own frame, where the footprint is a box.
 struct BodyFrame {
   const Footprint& footprint;
-  Box body;
   Transform2 robot_from_map;
-
-  BodyFrame(const Footprint& f, const Pose2& map_from_robot)
-      : footprint(f),
-        body{{-f.rear_m, -f.half_width_m}, {f.front_m, f.half_width_m}},
-        robot_from_map(inverse(map_from_robot)) {}
+  Box2 body{{-footprint.rear_m, -footprint.half_width_m}, {footprint.front_m, footprint.half_width_m}};
 
   [[nodiscard]] double distance_to(const WallSegment& s) const {
     const WallSegment wall{robot_from_map * s.from, robot_from_map * s.to};
@@ -104,7 +102,8 @@ void Walls::size_buckets() {
 void Walls::fill_buckets() {
   const double half_diagonal = bucket_m_ * 0.70710678118654757;
   const auto each_touch = [&](auto&& touch) {
-    const auto scan = [&](const auto& shape, std::uint32_t item, const Box& box) {
+    const auto scan = [&](const auto& shape, std::uint32_t item) {
+      const Box2 box = box_of(shape);
       const Vec2 centre = (box.low + box.high) * 0.5, half = (box.high - box.low) * 0.5;
       const Span columns = overlap(centre.x, half.x, bounds_.low.x, columns_);
       const Span rows = overlap(centre.y, half.y, bounds_.low.y, rows_);
@@ -117,15 +116,8 @@ void Walls::fill_buckets() {
       }
     };
     std::uint32_t item = 0;
-    for (const WallSegment& s : map_.segments) {
-      Box box{s.from, s.from};
-      widen(box, s.to);
-      scan(s, item++, box);
-    }
-    for (const Disc& d : map_.discs) {
-      const Vec2 r{d.radius_m, d.radius_m};
-      scan(d, item++, {d.centre - r, d.centre + r});
-    }
+    for (const WallSegment& s : map_.segments) scan(s, item++);
+    for (const Disc& d : map_.discs) scan(d, item++);
   };
   first_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_) + 1, 0);
   each_touch([&](std::size_t bucket, std::uint32_t) { ++first_[bucket + 1]; });
@@ -178,23 +170,17 @@ double Walls::distance(Vec2 p, double cap) const noexcept {
   return std::max(nearest, 0.0);
 }
 
-double Walls::nearest_to_footprint(const Footprint& footprint, const Pose2& map_from_robot,
-                                   double reach) const noexcept {
-  const BodyFrame frame(footprint, map_from_robot);
-  double nearest = kInfinity;
-  for_each_near(map_from_robot.position(), reach,
-                [&](const auto& shape) { nearest = std::min(nearest, frame.distance_to(shape)); });
-  return nearest;
-}
-
 double Walls::clearance(const Footprint& footprint, const Pose2& map_from_robot) const noexcept {
   if (solid_at(map_from_robot.position())) return 0.0;
   const double body = footprint.circumscribed_radius_m();
   const Vec2 size = bounds_.high - bounds_.low;
   const Vec2 to_middle = (bounds_.low + bounds_.high) * 0.5 - map_from_robot.position();
   const double everything = norm(to_middle) + norm(size) + body;
+  const BodyFrame frame{footprint, Transform2(inverse(map_from_robot))};
   for (double reach = body + 0.5;; reach *= 2.0) {  // all within reach - body of the footprint has been seen
-    const double nearest = nearest_to_footprint(footprint, map_from_robot, reach);
+    double nearest = kInfinity;
+    for_each_near(map_from_robot.position(), reach,
+                  [&](const auto& shape) { nearest = std::min(nearest, frame.distance_to(shape)); });
     if (nearest <= reach - body || reach > everything) return nearest;
   }
 }

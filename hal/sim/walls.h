@@ -12,10 +12,6 @@ namespace jaywalk::sim {
 
 inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-struct Box {
-  Vec2 low, high;
-};
-
 /// Walls sorted into square buckets. Queries are exact (floating point), allocate nothing and never throw.
 class Walls {
  public:
@@ -40,16 +36,13 @@ class Walls {
 
   [[nodiscard]] std::span<const WallSegment> segments() const noexcept { return map_.segments; }
   [[nodiscard]] std::span<const Disc> discs() const noexcept { return map_.discs; }
-  /// A box round all walls.
-  [[nodiscard]] const Box& bounds() const noexcept { return bounds_; }
+  [[nodiscard]] const Box2& bounds() const noexcept { return bounds_; }
 
  private:
   struct Span {
     std::int32_t begin, end;
   };
   [[nodiscard]] Span overlap(double centre, double reach, double low, std::int32_t count) const noexcept;
-  [[nodiscard]] double nearest_to_footprint(const Footprint& footprint, const Pose2& map_from_robot,
-                                            double reach) const noexcept;
   [[nodiscard]] bool solid_at(Vec2 p) const noexcept;
   void size_buckets();
   void fill_buckets();
@@ -71,7 +64,7 @@ class Walls {
 
   WallMap map_;
   Transform2 raster_from_map_;
-  Box bounds_{};
+  Box2 bounds_;
   double bucket_m_ = 0.5;
   std::int32_t columns_ = 1, rows_ = 1;
   std::vector<std::uint32_t> first_;  ///< of each bucket's items in items_; one more at the end

@@ -17,8 +17,7 @@ constexpr double kLegRadiusM = 0.06;
 constexpr double kLegFromMiddleM = 0.1;  // to the side
 constexpr double kStepGrowsMps = 1.0;    // a pedestrian starting or stopping changes its steps by this
 
-/// Where the left foot is, in half steps ahead of the middle: it stands on the ground for one step, while the body goes
-/// over it, and comes forward with the next.
+/// The left foot, in half steps ahead of the middle: it stands for one step and comes forward with the next.
 double left_ahead(double steps) {
   const double of_two = steps - 2.0 * std::floor(0.5 * steps);
   return of_two < 1.0 ? 1.0 - 2.0 * of_two : 2.0 * of_two - 3.0;
@@ -30,7 +29,7 @@ constexpr double kIntimate_m = 0.45;   // HuNavSim's indicator functions, after 
 constexpr double kPersonal_m = 1.2;    // the same
 constexpr double kOpenGround = 50.0;   // m round the walls; what lies farther out is a slip of unit or origin
 
-bool off_the_map(const Box& walls, Vec2 p) {
+bool off_the_map(const Box2& walls, Vec2 p) {
   const Vec2 past{std::max(walls.low.x - p.x, p.x - walls.high.x), std::max(walls.low.y - p.y, p.y - walls.high.y)};
   return !(past.x <= kOpenGround && past.y <= kOpenGround);
 }
@@ -93,15 +92,9 @@ bool World::add_walker(Scenario scenario, std::uint64_t seed) {
   return wanderers_.add({scenario, walls_, grid_}, seed, static_cast<std::uint32_t>(legs_.size()), movers_);
 }
 
-bool World::fault_active(FaultKind kind) const noexcept {
-  const double now_s = to_seconds(truth_.now);
-  return std::any_of(faults_.begin(), faults_.end(),
-                     [&](const FaultSpec& fault) { return fault.kind == kind && fault.active(now_s); });
-}
-
-bool World::fault_active(FaultKind kind, std::size_t scanner) const noexcept {
+bool World::fault_active(FaultKind kind, std::optional<std::size_t> scanner) const noexcept {
   return std::any_of(faults_.begin(), faults_.end(), [&](const FaultSpec& fault) {
-    return fault.kind == kind && fault.is_of(scanner) && fault.active(to_seconds(truth_.now));
+    return fault.kind == kind && (!scanner || fault.is_of(*scanner)) && fault.active(to_seconds(truth_.now));
   });
 }
 
@@ -116,14 +109,11 @@ void World::touch() noexcept {
   if (touching_) return;
   touching_ = true;
   ++truth_.contacts;
-  if (outline_mps() > kCausedSpeed) ++truth_.contacts_caused;
-}
-
-/// Of the corner that a turn speeds up most and that is farthest from the axle.
-double World::outline_mps() const noexcept {
+  // The outline's fastest point is the corner that a turn speeds up most and that is farthest from the axle.
   const double turn = std::fabs(plant_.twist().w_radps);
-  return norm({std::fabs(plant_.twist().v_mps) + turn * footprint_.half_width_m,
-               turn * std::max(footprint_.front_m, footprint_.rear_m)});
+  const Vec2 fastest{std::fabs(plant_.twist().v_mps) + turn * footprint_.half_width_m,
+                     turn * std::max(footprint_.front_m, footprint_.rear_m)};
+  if (norm(fastest) > kCausedSpeed) ++truth_.contacts_caused;
 }
 
 /// Walls, wandering and social movers stop the robot. The outline moves at most as far as the middle plus the turn

@@ -2,6 +2,7 @@
 // What happens: robot, movers and walls in small fixed steps, and the truth about them.
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -14,11 +15,10 @@
 
 namespace jaywalk::sim {
 
-/// The two legs of a walking pedestrian, as a laser at the height of the shins sees them. Feet stand on the ground in
-/// turns, for a step each, and overtake each other at twice his speed; shins, a third of the way up to the hip, do two
-/// thirds of that about his middle. Steps are the longer the faster he walks: length over rate is 0.0065 m per step a
-/// minute (Sekiya and Nagasaki 1998). Below 1 m/s people's steps are longer than that (PMC5430280), which is left out.
-/// A pedestrian that stops puts its feet side by side.
+/// The two legs of a walking pedestrian, as a laser at the height of the shins sees them. Feet stand in turns, for a
+/// step each; shins, a third of the way up to the hip, do two thirds of their way about the middle. A step's length
+/// over rate is 0.0065 m per step a minute (Sekiya and Nagasaki 1998); longer steps below 1 m/s (PMC5430280) are left
+/// out.
 class Legs {
  public:
   /// Goes on by `step_s` as the walker does.
@@ -60,9 +60,8 @@ class World {
   [[nodiscard]] std::span<const Disc> movers_seen() const noexcept { return seen_; }
   [[nodiscard]] const Truth& truth() const noexcept { return truth_; }
   [[nodiscard]] std::span<const FaultSpec> faults() const noexcept { return faults_; }
-  [[nodiscard]] bool fault_active(FaultKind kind) const noexcept;
-  /// The same of a scanner, counted from 0.
-  [[nodiscard]] bool fault_active(FaultKind kind, std::size_t scanner) const noexcept;
+  /// Whether such a fault is there now: any, or one of `scanner`, counted from 0.
+  [[nodiscard]] bool fault_active(FaultKind kind, std::optional<std::size_t> scanner = {}) const noexcept;
 
  private:
   [[nodiscard]] RobotBody body() const noexcept { return {footprint_, plant_.map_from_robot()}; }
@@ -81,8 +80,6 @@ class World {
   void judge_gaps() noexcept;
   void measure_nearness() noexcept;
   void touch() noexcept;
-  /// Speed (m/s) of the outline's fastest point.
-  [[nodiscard]] double outline_mps() const noexcept;
   /// The scenario itself, once its start and goal are known to be free and on the map.
   [[nodiscard]] const Scenario& with_free_places(const Scenario& scenario) const;
 

@@ -4,8 +4,7 @@
 
 namespace jaywalk {
 
-/// A vector in place with a fixed capacity: it never allocates. A full one refuses, and what then
-/// happens is the caller's stated policy. T is default-constructible and trivially copyable.
+/// A vector in place with a fixed capacity: it never allocates. T is default-constructible and trivially copyable.
 template <class T, std::size_t N>
 class FixedVector {
  public:

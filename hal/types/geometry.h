@@ -1,9 +1,9 @@
 #pragma once
-// Points, poses and twists in the plane. SI units, x forward, y left, angles in radians.
-//
-// Frames proofread themselves: a Pose2 named map_from_robot takes points in the robot's frame to
-// the map's, and map_from_robot * robot_from_laser is map_from_laser.
+// Points, poses and twists in the plane. SI units, x forward, y left, angles in radians. A Pose2 map_from_robot takes
+// points in the robot's frame to the map's; map_from_robot * robot_from_laser is map_from_laser.
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "hal/types/trig.h"
 
@@ -26,6 +26,27 @@ struct Vec2 {
 [[nodiscard]] inline double distance(Vec2 a, Vec2 b) { return norm(b - a); }
 /// Unit vector at `heading` radians from +x.
 [[nodiscard]] inline Vec2 direction(double heading) { return {cos(heading), sin(heading)}; }
+
+/// Nearest point of the segment between two points.
+[[nodiscard]] inline Vec2 nearest_on_segment(Vec2 p, Vec2 from, Vec2 to) {
+  const Vec2 along = to - from;
+  const double squared = dot(along, along);
+  const double share = squared > 0.0 ? std::clamp(dot(p - from, along) / squared, 0.0, 1.0) : 0.0;
+  return from + along * share;
+}
+
+/// Upright rectangle; at first one that holds nothing, its low corner beyond the high one.
+struct Box2 {
+  static constexpr double kBeyond = std::numeric_limits<double>::infinity();
+  Vec2 low{kBeyond, kBeyond}, high{-kBeyond, -kBeyond};
+
+  [[nodiscard]] bool is_empty() const { return !(low.x <= high.x); }
+  /// Grows until it holds the point.
+  void hold(Vec2 p) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+  }
+};
 
 /// Position and heading (rad, in (-pi, pi]) of one frame in another.
 struct Pose2 {

@@ -10,11 +10,8 @@
 
 namespace jaywalk {
 
-/// Most beams that a scan may have: 360 degrees at 0.18 degrees.
-inline constexpr std::size_t kMaxBeams = 2048;
-
-/// Fewest beams that a scan may have: with fewer it is no scanner.
-inline constexpr std::size_t kLeastBeams = 3;
+inline constexpr std::size_t kMaxBeams = 2048;  ///< of a scan: 360 degrees at 0.18 degrees
+inline constexpr std::size_t kLeastBeams = 3;   ///< with fewer it is no scanner
 
 /// What one beam proves.
 enum class BeamState : std::uint8_t {
@@ -62,8 +59,7 @@ struct LaserScan {
   }
 };
 
-// A robot has one scanner or more. What there is of each is kept as the first's and those of the others, in the order
-// of the robot's file: most robots have one, and read as such.
+// Values of each scanner are kept as the first's and those of the others, in the order of the robot's file.
 
 /// One at each corner.
 inline constexpr std::size_t kMostScanners = 4;

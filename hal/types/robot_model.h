@@ -24,12 +24,10 @@ struct BlankedSector {
 
 using Blanking = FixedVector<BlankedSector, 16>;
 
-/// What beams measured that look into a sector was the robot: their ranges become minus infinity (LaserScan). The
-/// others stay as they are.
+/// Ranges of beams that look into a sector become minus infinity (LaserScan): they measured the robot.
 void blank(const Blanking& sectors, LaserScan& scan) noexcept;
 
-/// What the supervisor's stop zone lets the robot do near a surface; roll-outs foresee the same. T: double to the
-/// supervisor, float to the roll-outs.
+/// Rules of the supervisor's stop zone (T: double), which roll-outs (float) foresee.
 template <class T>
 struct StopZoneRules {
   static constexpr T kMargin_m = T(0.08);       ///< kept free round the footprint at kFull_mps of its rim and above
@@ -118,8 +116,7 @@ struct RobotModel {
 /// messages and topics call a scanner. "" where there is one alone.
 [[nodiscard]] std::string scanner_name(const RobotModel& model, std::size_t scanner);
 
-/// Pioneer P3-DX with ODrives in place of its own board, and a 270 degree scanner: 0.511 m x 0.425 m, its axle 0.21 m
-/// behind its front. Each number's source stands beside it.
+/// Pioneer P3-DX with ODrives in place of its own board, and a 270 degree scanner: 0.511 m x 0.425 m.
 [[nodiscard]] RobotModel p3dx();
 /// A power wheelchair, 0.65 m x 1.10 m, turning about its drive axle 0.35 m from its rear.
 [[nodiscard]] RobotModel wheelchair();

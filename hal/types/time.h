@@ -1,6 +1,5 @@
 #pragma once
-// Time as the control loop counts it: nanoseconds since an epoch that the clock device chooses
-// (boot for a real clock, zero for the simulated one, the recording's own for a replay).
+// Time as the control loop counts it: nanoseconds since an epoch of the clock device's own.
 #include <chrono>
 #include <cstdint>
 

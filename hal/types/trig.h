@@ -1,10 +1,7 @@
 #pragma once
-// Elementary functions that give the same bits on every machine.
-//
-// libm differs between machines (glibc picks fused variants at run time), and a command that
-// depends on it would differ too. These use only + - x / and sqrt, which IEEE 754 fixes.
-// Accuracy, tested: better than 1e-14 absolute for sin, cos, atan2 (|angle| up to 1e4 rad),
-// better than 1e-14 relative for exp and absolute for log over the ranges stated.
+// Elementary functions that give the same bits on every machine, as libm's do not (glibc picks fused variants at run
+// time): of + - x / and sqrt alone, which IEEE 754 fixes. Accuracy, tested: better than 1e-14 absolute for sin, cos,
+// atan2 (|angle| up to 1e4 rad) and log, relative for exp, over the ranges stated.
 namespace jaywalk {
 
 inline constexpr double kPi = 3.14159265358979323846;

@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <string_view>
@@ -28,7 +29,22 @@ enum class DriveTrouble : std::uint8_t {
 inline constexpr DriveTrouble kLastDriveTrouble = DriveTrouble::kNotProved;
 
 /// "drive silent".
-[[nodiscard]] std::string_view name(DriveTrouble trouble) noexcept;
+[[nodiscard]] inline std::string_view name(DriveTrouble trouble) noexcept {
+  constexpr std::array<std::string_view, 12> kNames{"none",
+                                                    "bus takes no frames",
+                                                    "bus unwell",
+                                                    "drive's emergency message",
+                                                    "drive in fault",
+                                                    "drive silent",
+                                                    "drive restarted",
+                                                    "drive left operation",
+                                                    "drive not operational",
+                                                    "another master on the bus",
+                                                    "stop not confirmed",
+                                                    "drive not proved again"};
+  const auto index = static_cast<std::size_t>(trouble);
+  return index < kNames.size() ? kNames[index] : "unknown trouble";
+}
 
 /// How far a stop has had to go because the wheels' feedback did not confirm it (SAFETY 14).
 enum class StopStage : std::uint8_t {
@@ -39,13 +55,16 @@ enum class StopStage : std::uint8_t {
 };
 
 /// "quick stop".
-[[nodiscard]] std::string_view name(StopStage stage) noexcept;
+[[nodiscard]] inline std::string_view name(StopStage stage) noexcept {
+  constexpr std::array<std::string_view, 4> kNames{"none", "quick stop", "network stop", "silent"};
+  const auto index = static_cast<std::size_t>(stage);
+  return index < kNames.size() ? kNames[index] : "unknown stage";
+}
 
 /// What the wheel encoders say; the two wheels of a differential drive.
 struct WheelState {
   Time stamp = kNever;
-  /// Grows by one a reading; 0: none yet. Begins anew at 1 where the angles do not go on from the reading before: a
-  /// counter restarted, or nobody counted.
+  /// Grows by one a reading; 0: none yet. Begins anew at 1 where the angles do not go on from the reading before.
   std::uint32_t sequence = 0;
   double left_rad = 0.0;  ///< angle turned since start; forward is positive; never wraps
   double right_rad = 0.0;

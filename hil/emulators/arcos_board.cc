@@ -4,8 +4,8 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "drivers/can/can_bus.h"
 #include "hal/types/trig.h"
+#include "hil/emulators/byte_server.h"
 #include "hil/emulators/motor_node.h"
 
 namespace jaywalk::emulators {
@@ -21,10 +21,6 @@ std::uint16_t arcos_sum(std::span<const std::uint8_t> body) {
   const std::size_t paired = body.size() - body.size() % 2;
   for (std::size_t k = 0; k < paired; ++k) sum += k % 2 == 0 ? body[k] * 256U : body[k];
   return static_cast<std::uint16_t>(paired < body.size() ? (sum & 0xFFFFU) ^ body.back() : sum);
-}
-
-void put(std::vector<std::uint8_t>& body, std::int64_t number, int bytes) {
-  for (int k = 0; k < bytes; ++k, number >>= 8) body.push_back(static_cast<std::uint8_t>(number));
 }
 
 void put_text(std::vector<std::uint8_t>& body, const std::string& text) {
@@ -180,8 +176,7 @@ void ArcosBoard::turn_motor(Motor& motor, double target, double seconds) noexcep
 }
 
 void ArcosBoard::say_due(Time now) {
-  if (said_ != kNever && now - said_ < std::chrono::milliseconds(cycle_ms_)) return;
-  said_ = now;
+  if (!is_due(said_, std::chrono::milliseconds(cycle_ms_), now)) return;
   say_report();
   if (tells_encoders_) say_encoders();
 }
@@ -189,16 +184,12 @@ void ArcosBoard::say_due(Time now) {
 void ArcosBoard::say_report() {
   const bool moves = motors_[0].shown_speed != 0.0 || motors_[1].shown_speed != 0.0;
   std::vector<std::uint8_t> body{static_cast<std::uint8_t>(moves ? 0x33 : 0x32)};
-  put(body, std::llround(x_mm_), 2);
-  put(body, std::llround(y_mm_), 2);
-  put(body, std::llround(heading_rad_ * 4096.0 / (2.0 * kPi)), 2);
+  const auto heading = std::llround(heading_rad_ * 4096.0 / (2.0 * kPi));
+  put(body, {{std::llround(x_mm_), 2}, {std::llround(y_mm_), 2}, {heading, 2}});
   for (const Motor& motor : motors_) put(body, std::llround(motor.shown_speed), 2);
-  body.push_back(125);  // battery, 0.1 V
-  put(body, (motors_[0].stalls ? 1 : 0) + (motors_[1].stalls ? 256 : 0), 2);
-  put(body, 0, 2);
-  put(body, (runs() ? 1 : 0) + (stop_pressed_ ? 32 : 0) + (all_stall_ ? 64 : 0), 2);
-  put(body, 0, 2);  // compass, no sonar
-  put(body, 125, 7);
+  const int stalls = (motors_[0].stalls ? 1 : 0) + (motors_[1].stalls ? 256 : 0);
+  const int flags = (runs() ? 1 : 0) + (stop_pressed_ ? 32 : 0) + (all_stall_ ? 64 : 0);
+  put(body, {{125, 1}, {stalls, 2}, {0, 2}, {flags, 2}, {0, 2}, {125, 7}});  // battery, 0.1 V; compass, no sonar
   say(std::move(body));
 }
 
@@ -217,20 +208,11 @@ void ArcosBoard::say_settings() {
   put(body, 0, 1);
   for (const int top : {500, 1500, int{ramp_limits_[kTurn]}, int{ramp_limits_[kSpeed]}, 500}) put(body, top, 2);
   put_text(body, "Bench");
-  put(body, cycle_ms_, 1);
-  put(body, 0, 9);
-  put(body, 16570, 2);  // ticks of a turn
-  put(body, watchdog_ms_, 2);
-  put(body, 0, 9);
+  put(body, {{cycle_ms_, 1}, {0, 9}, {16570, 2}, {watchdog_ms_, 2}, {0, 9}});  // 16570: ticks of a turn
   for (const Ramp* ramp : {&ramps_[kTurn], &ramps_[kSpeed]}) put(body, std::llround(ramp->top), 2);
-  for (const Ramp* ramp : {&ramps_[kTurn], &ramps_[kSpeed]}) {
-    put(body, std::llround(ramp->up), 2);
-    put(body, std::llround(ramp->down), 2);
-    put(body, 0, 6);  // gains
-  }
-  put(body, 0, 10);
-  put(body, ticks_per_mm_, 2);
-  put(body, 105, 2);
+  for (const Ramp* ramp : {&ramps_[kTurn], &ramps_[kSpeed]})
+    put(body, {{std::llround(ramp->up), 2}, {std::llround(ramp->down), 2}, {0, 6}});  // no gains
+  put(body, {{0, 10}, {ticks_per_mm_, 2}, {105, 2}});
   put_text(body, "2.5");
   say(std::move(body));
 }

@@ -11,10 +11,9 @@
 
 namespace jaywalk::emulators {
 
-/// Emulated ARCOS board of a Pioneer: two motors with ramps, a report each cycle, encoders, settings, and a watchdog.
-/// After the watchdog has stopped the motors, any packet resumes the last command. Packets arrive as frames of bytes.
-/// For tests and the bench; it shares no code with the driver, except how numbers stand in bytes. Speeds: mm/s; sides:
-/// 0 left, 1 right.
+/// Emulated ARCOS board of a Pioneer: two motors with ramps, a report each cycle, encoders, settings, and a watchdog,
+/// after which any packet resumes the last command. It shares no code with the driver. Speeds: mm/s; sides: 0 left, 1
+/// right.
 class ArcosBoard {
  public:
   /// `bus`, a place on the line, outlives it. `track_mm`: by which its wheels' speeds differ in a turn.
@@ -47,7 +46,6 @@ class ArcosBoard {
   void go_deaf(std::size_t side) noexcept { motors_[side].sticks = motors_[side].deaf = true; }
   /// Its encoder shows another way at once.
   void jump(std::size_t side, double mm) noexcept { motors_[side].jumped_mm += mm; }
-  /// It obeys, and says nothing any more.
   void mute() noexcept { muted_ = true; }
   void pull_cable() noexcept { connected_ = false; }
   void plug_cable() noexcept { connected_ = true; }
@@ -62,7 +60,6 @@ class ArcosBoard {
   /// When it heard a packet last; kNever before the first one.
   [[nodiscard]] Time heard_controller() const noexcept { return heard_; }
   [[nodiscard]] bool has_tripped() const noexcept { return tripped_; }
-  /// Numbers of the commands that it heard.
   [[nodiscard]] const std::vector<std::uint8_t>& commands() const noexcept { return commands_; }
 
  private:

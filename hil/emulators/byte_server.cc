@@ -42,18 +42,16 @@ wire::Bytes ByteServer::read() noexcept {
 void ByteServer::write(wire::Bytes bytes) {
   if (peer_.get() < 0) return;
   if (unsent_.size() + bytes.size() <= kMostUnsent) unsent_.insert(unsent_.end(), bytes.begin(), bytes.end());
-  flush();
-}
-
-void ByteServer::flush() noexcept {
   ssize_t sent = ::send(peer_.get(), unsent_.data(), unsent_.size(), MSG_NOSIGNAL);
-  if (sent < 0 && errno == ENOTSOCK) sent = ::write(peer_.get(), unsent_.data(), unsent_.size());
+  const bool is_line = sent < 0 && errno == ENOTSOCK;
+  if (is_line) sent = ::write(peer_.get(), unsent_.data(), unsent_.size());
   if (sent > 0) unsent_.erase(unsent_.begin(), unsent_.begin() + sent);
-  if (!waits_for_peer()) unsent_.clear();
+  if (is_line) unsent_.clear();  // a serial line does not wait for a reader
 }
 
 void ByteServer::drop_peer() noexcept {
-  if (peer_.get() >= 0) before_drop(peer_.get());
+  const linger at_once{1, 0};  // makes close send a reset; nothing on a serial line
+  static_cast<void>(::setsockopt(peer_.get(), SOL_SOCKET, SO_LINGER, &at_once, sizeof at_once));
   peer_ = wire::FileDescriptor();
 }
 
@@ -84,22 +82,11 @@ wire::FileDescriptor TcpServer::accept() noexcept {
   return peer;
 }
 
-// Lingering for no time makes close send a reset.
-void TcpServer::before_drop(int peer) noexcept {
-  const linger at_once{1, 0};
-  static_cast<void>(::setsockopt(peer, SOL_SOCKET, SO_LINGER, &at_once, sizeof at_once));
-}
-
 void TcpServer::set_present(bool present) {
   if (present == (listener_.get() >= 0)) return;
   if (present) return listen();
   drop_peer();
   listener_ = wire::FileDescriptor();
-}
-
-PtyServer::~PtyServer() {
-  std::error_code ignored;
-  std::filesystem::remove(path_, ignored);
 }
 
 void PtyServer::plug_in() {

@@ -1,6 +1,6 @@
 #pragma once
-// The device's end of a wire.
 #include <cstdint>
+#include <initializer_list>
 #include <memory>
 #include <string>
 #include <vector>
@@ -11,6 +11,30 @@
 
 namespace jaywalk::emulators {
 
+/// Appends the lowest `bytes` bytes of a number, least significant first.
+inline void put(std::vector<std::uint8_t>& message, std::int64_t number, int bytes) {
+  for (int k = 0; k < bytes; ++k, number >>= 8) message.push_back(static_cast<std::uint8_t>(number));
+}
+
+struct Number {
+  std::int64_t value;
+  int bytes;
+};
+inline void put(std::vector<std::uint8_t>& message, std::initializer_list<Number> numbers) {
+  for (const Number& each : numbers) put(message, each.value, each.bytes);
+}
+
+/// Remainder of `bytes` by a polynomial of degree `bits`, as a number with its leading one, by long division.
+[[nodiscard]] inline unsigned crc(std::span<const std::uint8_t> bytes, unsigned bits, unsigned polynomial) noexcept {
+  unsigned rest = 0;
+  for (std::size_t bit = 0; bit < 8 * bytes.size() + bits; ++bit) {
+    const unsigned next = bit / 8 < bytes.size() ? (static_cast<unsigned>(bytes[bit / 8]) >> (7 - bit % 8)) & 1U : 0U;
+    rest = rest << 1U | next;
+    if ((rest >> bits) != 0) rest ^= polynomial;
+  }
+  return rest;
+}
+
 /// The device's end of a wire that carries bytes, with one peer at a time. Nothing waits. Not for the loop.
 class ByteServer {
  public:
@@ -19,7 +43,6 @@ class ByteServer {
   [[nodiscard]] bool has_peer() noexcept;
   /// Goes up by one with each peer.
   [[nodiscard]] std::uint64_t peers() const noexcept { return peers_; }
-  /// What the peer sent since the last call.
   [[nodiscard]] wire::Bytes read() noexcept;
   /// Sends what can be sent at once. The rest waits where the wire lets it wait, and is lost where it does not.
   void write(wire::Bytes bytes);
@@ -31,14 +54,8 @@ class ByteServer {
  protected:
   /// A new peer, or -1. Called while there is none, and while there is one.
   [[nodiscard]] virtual wire::FileDescriptor accept() noexcept = 0;
-  /// Makes closing abrupt where the wire knows of a difference.
-  virtual void before_drop(int peer) noexcept = 0;
-  /// True where a sender waits for its peer to take what it sent.
-  [[nodiscard]] virtual bool waits_for_peer() const noexcept = 0;
 
  private:
-  void flush() noexcept;
-
   wire::FileDescriptor peer_;
   std::uint64_t peers_ = 0;
   std::vector<std::uint8_t> room_ = std::vector<std::uint8_t>(4096);
@@ -55,8 +72,6 @@ class TcpServer final : public ByteServer {
 
  private:
   wire::FileDescriptor accept() noexcept override;
-  void before_drop(int peer) noexcept override;
-  [[nodiscard]] bool waits_for_peer() const noexcept override { return true; }
   void listen();
 
   std::uint16_t port_;
@@ -69,14 +84,12 @@ class PtyServer final : public ByteServer {
  public:
   /// Replaces the link `path`. Throws StartupError where this machine has no pseudo terminals.
   explicit PtyServer(std::string path) : path_(std::move(path)) { plug_in(); }
-  ~PtyServer() override;
+  ~PtyServer() override { set_present(false); }
   [[nodiscard]] const std::string& path() const noexcept { return path_; }
   void set_present(bool present) override;
 
  private:
   wire::FileDescriptor accept() noexcept override { return std::exchange(fresh_, wire::FileDescriptor()); }
-  void before_drop(int) noexcept override {}
-  [[nodiscard]] bool waits_for_peer() const noexcept override { return false; }
   void plug_in();
 
   std::string path_;
@@ -90,9 +103,9 @@ class ServedBytes final : public CanBus {
   /// `clock` outlives it.
   ServedBytes(std::unique_ptr<ByteServer> wire, Clock& clock) noexcept : wire_(std::move(wire)), clock_(clock) {}
 
-  [[nodiscard]] SendResult send(const CanFrame& frame) noexcept override {
+  [[nodiscard]] bool send(const CanFrame& frame) noexcept override {
     wire_->write(frame.payload());
-    return SendResult::kQueued;
+    return true;
   }
   [[nodiscard]] bool receive(ReceivedFrame& received) noexcept override {
     if (waiting_.empty() && wire_->has_peer()) waiting_ = wire_->read();

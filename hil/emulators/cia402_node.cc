@@ -10,20 +10,28 @@ namespace {
 
 constexpr std::uint32_t kPdoOff = 0x80000000, kIdentifier = 0x7FF;
 
+struct StateRow {
+  std::string_view name;
+  std::uint16_t statusword;
+};
+
+/// In the order of State.
+constexpr std::array<StateRow, 7> kStates{{{"off", 0x0250},
+                                           {"ready", 0x0231},
+                                           {"switched_on", 0x0233},
+                                           {"enabled", 0x0237},
+                                           {"quick_stop", 0x0217},
+                                           {"fault_reaction", 0x021F},
+                                           {"fault", 0x0218}}};
+
 }  // namespace
 
-void Cia402Node::step(Time now) noexcept {
+void Cia402Node::step(Time now) {
   if (!booted_) boot();
   if (!is_enabled()) enabled_ = kNever;
   if (is_enabled() && enabled_ == kNever) enabled_ = now;
   show();
-  ReceivedFrame received;
-  while (bus_.receive(received))
-    if (connected_) take(received.frame, now);
-  watch_controller(now);
-  if (stepped_ != kNever) move(to_seconds(now - stepped_));
-  stepped_ = now;
-  say_heartbeat(now);
+  MotorNode::step(now);
 }
 
 void Cia402Node::boot() noexcept {
@@ -94,18 +102,16 @@ void Cia402Node::take_targets(const CanFrame& frame) noexcept {
 
 void Cia402Node::on_sync() noexcept {
   obey(pending_controlword_);
-  if (!hangs_) objects_.set({0x60FF, 0}, static_cast<std::uint32_t>(pending_target_));
+  if (!stuck_) objects_.set({0x60FF, 0}, static_cast<std::uint32_t>(pending_target_));
   show();
   transmit(0x1800, 0x1A00);
   transmit(0x1801, 0x1A01);
 }
 
-/// What its objects show of the motor.
 void Cia402Node::show() noexcept {
-  const double felt = has_encoder_ ? encoder_velocity_ : velocity_;
   const double stands_at = felt_position() + slipped_;
-  objects_.set({0x6041, 0}, statusword());
-  objects_.set({0x606C, 0}, static_cast<std::uint32_t>(static_cast<std::int32_t>(felt)));
+  objects_.set({0x6041, 0}, kStates[static_cast<std::size_t>(state_)].statusword);
+  objects_.set({0x606C, 0}, static_cast<std::uint32_t>(static_cast<std::int32_t>(felt_velocity())));
   objects_.set({0x6064, 0}, static_cast<std::uint32_t>(static_cast<std::int64_t>(std::floor(stands_at))));
   objects_.set({0x6061, 0}, shown_mode());
 }
@@ -116,7 +122,6 @@ std::uint32_t Cia402Node::shown_mode() const noexcept {
   return shows ? objects_.value({0x6060, 0}) : 0;
 }
 
-/// A transmit PDO, as it is mapped.
 void Cia402Node::transmit(std::uint16_t communication, std::uint16_t mapping) noexcept {
   const std::uint32_t id = objects_.value({communication, 1});
   if ((id & kPdoOff) != 0 || !reports_) return;
@@ -137,8 +142,7 @@ void Cia402Node::transmit(std::uint16_t communication, std::uint16_t mapping) no
 void Cia402Node::obey(std::uint16_t controlword) noexcept {
   const bool reset_edge = (controlword & 0x80) != 0 && (last_controlword_ & 0x80) == 0;
   last_controlword_ = controlword;
-  if (hangs_) return;
-  if (state_ == State::kFaultReaction) return;
+  if (stuck_ || state_ == State::kFaultReaction) return;
   if (state_ == State::kFault) {
     if (reset_edge) state_ = State::kSwitchOnDisabled;
     return;
@@ -160,21 +164,8 @@ void Cia402Node::obey(std::uint16_t controlword) noexcept {
   }
 }
 
-std::uint16_t Cia402Node::statusword() const noexcept {
-  switch (state_) {
-    case State::kSwitchOnDisabled: return 0x0250;
-    case State::kReady: return 0x0231;
-    case State::kSwitchedOn: return 0x0233;
-    case State::kOperationEnabled: return 0x0237;
-    case State::kQuickStop: return 0x0217;
-    case State::kFaultReaction: return 0x021F;
-    case State::kFault: return 0x0218;
-  }
-  return 0;
-}
-
 // CiA 301: watching begins with the first heartbeat heard.
-void Cia402Node::watch_controller(Time now) noexcept {
+void Cia402Node::watch(Time now) noexcept {
   const std::uint32_t entry = objects_.value({0x1016, 1});
   const auto limit = std::chrono::milliseconds(entry & 0xFFFFU);
   if (entry == 0 || fed_ == kNever || now - fed_ <= limit) return;
@@ -195,15 +186,11 @@ void Cia402Node::lose_controller() noexcept {
   }
 }
 
-std::string_view Cia402Node::state_name() const noexcept {
-  constexpr std::array<std::string_view, 7> kNames{"off",        "ready",          "switched_on", "enabled",
-                                                   "quick_stop", "fault_reaction", "fault"};
-  return kNames[static_cast<std::size_t>(state_)];
-}
+std::string_view Cia402Node::state_name() const noexcept { return kStates[static_cast<std::size_t>(state_)].name; }
 
-void Cia402Node::raise_fault(std::uint16_t error_code) noexcept {
+void Cia402Node::raise_fault(std::uint32_t error_code) noexcept {
   state_ = State::kFaultReaction;
-  send_emergency(error_code);
+  send_emergency(static_cast<std::uint16_t>(error_code));
 }
 
 void Cia402Node::move(double seconds) noexcept {
@@ -227,11 +214,10 @@ void Cia402Node::move(double seconds) noexcept {
   if (state_ == State::kFaultReaction) state_ = State::kFault;
 }
 
-void Cia402Node::say_heartbeat(Time now) noexcept {
+void Cia402Node::say(Time now) noexcept {
   const auto period = std::chrono::milliseconds(objects_.value({0x1017, 0}));
-  if (period.count() == 0 || (said_heartbeat_ != kNever && now - said_heartbeat_ < period)) return;
-  said_heartbeat_ = now;
-  send(0x700U + node_, static_cast<std::uint64_t>(network_), heartbeat_size_);
+  if (period.count() > 0 && is_due(said_heartbeat_, period, now))
+    send(0x700U + node_, static_cast<std::uint64_t>(network_), heartbeat_size_);
 }
 
 void Cia402Node::send(std::uint32_t id, std::uint64_t word, std::uint8_t size) noexcept {

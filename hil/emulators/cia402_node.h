@@ -9,45 +9,35 @@
 namespace jaywalk::emulators {
 
 /// A CANopen drive with a motor that follows its ramps exactly: SDO server, PDOs at SYNC as they are mapped, heartbeat
-/// both ways, the CiA 402 state machine as a drive sees it. For tests and the bench; it shares no code with the master
-/// that it talks to, except how numbers stand in bytes.
+/// both ways, the CiA 402 state machine as a drive sees it. In counts; its node is 1 to 127.
 ///
 /// Network states (CiA 301): after power-up it says boot-up and is Pre-operational. Outside Operational it takes and
 /// sends no PDO, Stopped it answers no SDO either, and in none of them does that by itself stop the motor, which goes
 /// on at the last target. What stops it is its watch over the controller's heartbeat (1016h, 6007h), in every state;
 /// heard_controller() is kNever again once that is missed.
-class Cia402Node : public MotorNode {
+class Cia402Node final : public MotorNode {
  public:
-  /// `bus` outlives it; `node` is 1 to 127.
-  Cia402Node(CanBus& bus, std::uint8_t node) noexcept : MotorNode(bus, node) {}
+  using MotorNode::MotorNode;
 
-  /// Takes what came in and moves the motor on to `now`.
-  void step(Time now) noexcept;
+  void step(Time now) override;
 
   [[nodiscard]] DriveObjects& objects() noexcept { return objects_; }
-  [[nodiscard]] double velocity() const noexcept { return velocity_; }  ///< counts/s
-  [[nodiscard]] double position() const noexcept { return position_; }  ///< counts
-  [[nodiscard]] bool is_enabled() const noexcept { return state_ == State::kOperationEnabled; }
-  [[nodiscard]] std::string_view state_name() const noexcept;
+  [[nodiscard]] std::string_view state_name() const noexcept override;
 
   /// Something broke: it brakes, says so in an emergency message and waits in "fault".
-  void raise_fault(std::uint16_t error_code) noexcept;
+  void raise_fault(std::uint32_t error_code) noexcept override;
   /// Power lost and back: forgets what was not stored, no torque; the motor rolls out.
-  void restart() noexcept;
+  void restart() noexcept override;
   /// From now on it goes Operational by itself after a restart (as 1F80h can have it).
   void start_by_itself() noexcept { starts_by_itself_ = true; }
-  /// Its inner loop hangs: it goes on at its last target whatever it is told, but what watches the heartbeat works.
-  void hang() noexcept { hangs_ = true; }
-  /// Its mode (6061h) shows in time: from the start, or so long after it was enabled.
-  void show_mode_after_enabling(Duration delay) noexcept { mode_delay_ = delay; }
+  void show_mode_after_enabling(Duration delay) noexcept override { mode_delay_ = delay; }
   /// Its mode never shows: it stays in another one.
   void keep_mode(std::uint8_t mode) noexcept { kept_mode_ = mode; }
   /// Its heartbeats are 8 bytes long, the first of them the state.
   void pad_heartbeats() noexcept { heartbeat_size_ = 8; }
   /// Its position is another one at once, as after an index pulse or a slip of its counter.
   void jump(double counts) noexcept { slipped_ += counts; }
-  /// It sends no process data any more, and all else works.
-  void lose_feedback() noexcept { reports_ = false; }
+  void lose_feedback() noexcept override { reports_ = false; }
 
  private:
   enum class State { kSwitchOnDisabled, kReady, kSwitchedOn, kOperationEnabled, kQuickStop, kFaultReaction, kFault };
@@ -55,7 +45,7 @@ class Cia402Node : public MotorNode {
   /// Its network state (CiA 301), as its heartbeat says it.
   enum class Network : std::uint8_t { kStopped = 0x04, kOperational = 0x05, kPreOperational = 0x7F };
 
-  void take(const CanFrame& frame, Time now) noexcept;
+  void take(const CanFrame& frame, Time now) noexcept override;
   void take_network_command(std::uint8_t command) noexcept;
   [[nodiscard]] bool take_request(const CanFrame& frame) noexcept;
   void take_targets(const CanFrame& frame) noexcept;
@@ -65,25 +55,23 @@ class Cia402Node : public MotorNode {
   [[nodiscard]] std::uint32_t shown_mode() const noexcept;
   void transmit(std::uint16_t communication, std::uint16_t mapping) noexcept;
   void obey(std::uint16_t controlword) noexcept;
-  void watch_controller(Time now) noexcept;
+  void watch(Time now) noexcept override;
   void lose_controller() noexcept;
-  void move(double seconds) noexcept;
-  void say_heartbeat(Time now) noexcept;
+  void move(double seconds) noexcept override;
+  void say(Time now) noexcept override;
   void send(std::uint32_t id, std::uint64_t word, std::uint8_t size) noexcept;
   void send_emergency(std::uint16_t error_code) noexcept {
     if (network_ != Network::kStopped) send(0x080U + node_, error_code, 8);
   }
-  [[nodiscard]] std::uint16_t statusword() const noexcept;
 
   DriveObjects objects_;
   State state_ = State::kSwitchOnDisabled;
   Network network_ = Network::kPreOperational;
   bool booted_ = false;  ///< and has said so
-  bool starts_by_itself_ = false, hangs_ = false, reports_ = true;
+  bool starts_by_itself_ = false, reports_ = true;
   std::uint16_t pending_controlword_ = 0;  ///< of the last PDO, until SYNC
   std::int32_t pending_target_ = 0;
   std::uint16_t last_controlword_ = 0;
-  double velocity_ = 0.0;
   double friction_ = 100.0;  ///< counts/s2: a tenth of the ramp with which it drove last
   double slipped_ = 0.0;
   std::optional<Duration> mode_delay_;

@@ -72,20 +72,17 @@ void DriveObjects::add(ObjectAddress address, std::uint8_t bytes, std::uint32_t 
 }
 
 DriveObjects::Object* DriveObjects::find(ObjectAddress address) noexcept {
-  auto* const found =
-      std::find_if(objects_.begin(), objects_.end(), [&](const Object& o) { return o.address == address; });
+  auto* const found = std::ranges::find(objects_, address, &Object::address);
   return found == objects_.end() ? nullptr : found;
 }
 
 std::uint32_t DriveObjects::value(ObjectAddress address) const noexcept {
-  for (const Object& object : objects_)
-    if (object.address == address) return object.value;
-  return 0;
+  const auto* const found = std::ranges::find(objects_, address, &Object::address);
+  return found == objects_.end() ? 0 : found->value;
 }
 
 void DriveObjects::lack(ObjectAddress address) noexcept {
-  for (std::size_t i = 0; i < objects_.size(); ++i)
-    if (objects_[i].address == address) return objects_.swap_remove(i);
+  if (Object* const object = find(address)) objects_.swap_remove(static_cast<std::size_t>(object - objects_.begin()));
 }
 
 void DriveObjects::fix(ObjectAddress address, std::uint32_t value) noexcept {

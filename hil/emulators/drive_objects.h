@@ -23,7 +23,6 @@ class DriveObjects {
   /// The answer to an SDO request addressed to `node`; nothing where `frame` is none.
   [[nodiscard]] std::optional<CanFrame> answer(std::uint8_t node, const CanFrame& frame) noexcept;
 
-  /// From now on the object does not exist.
   void lack(canopen::ObjectAddress address) noexcept;
   /// From now on it is read-only and holds this.
   void fix(canopen::ObjectAddress address, std::uint32_t value) noexcept;

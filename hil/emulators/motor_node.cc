@@ -1,10 +1,10 @@
 #include "hil/emulators/motor_node.h"
 
-#include <algorithm>
+#include <array>
 #include <bit>
-#include <cmath>
+#include <vector>
 
-#include "drivers/wire/byte_reader.h"
+#include "hil/emulators/byte_server.h"
 
 namespace jaywalk::emulators {
 namespace {
@@ -12,33 +12,15 @@ namespace {
 constexpr double kRamp_turns_per_s2 = 20.0;
 constexpr double kRollOut_turns_per_s2 = 2.0;  ///< without torque
 constexpr std::uint32_t kEstop = 0x02000000;
-constexpr Duration kEstimatesPeriod = std::chrono::milliseconds(10);
-
-bool is_due(Time& said, Duration period, Time now) noexcept {
-  if (said != kNever && now - said < period) return false;
-  said = now;
-  return true;
-}
+constexpr Duration kPeriod = std::chrono::milliseconds(10);  ///< of heartbeats, estimates and status messages
 
 constexpr double kRamp_erpm_per_s = 30000.0;
 constexpr double kRollOut_erpm_per_s = 1500.0;
 constexpr std::size_t kSettingsBytes = 300;  ///< some firmware has more, some fewer
-constexpr Duration kStatusPeriod = std::chrono::milliseconds(10);
-
-/// Remainder of x^16 + x^12 + x^5 + 1, by long division over all bits.
-std::uint16_t crc16(std::span<const std::uint8_t> bytes) {
-  unsigned rest = 0;
-  for (std::size_t bit = 0; bit < 8 * (bytes.size() + 2); ++bit) {
-    const unsigned next = bit / 8 < bytes.size() ? (static_cast<unsigned>(bytes[bit / 8]) >> (7 - bit % 8)) & 1U : 0U;
-    rest = rest << 1U | next;
-    if ((rest & 0x10000U) != 0) rest ^= 0x11021U;
-  }
-  return static_cast<std::uint16_t>(rest);
-}
 
 }  // namespace
 
-void OdriveNode::step(Time now) noexcept {
+void MotorNode::step(Time now) {
   ReceivedFrame received;
   while (bus_.receive(received))
     if (connected_) take(received.frame, now);
@@ -104,19 +86,17 @@ void OdriveNode::move(double seconds) noexcept {
 }
 
 void OdriveNode::say(Time now) noexcept {
-  if (is_due(said_heartbeat_, kHeartbeatPeriod, now))
-    send(0x01, errors_, state_ | static_cast<std::uint32_t>(procedure_) << 8U);
-  if (!estimates_ || !is_due(said_estimates_, kEstimatesPeriod, now)) return;
+  if (is_due(said_heartbeat_, kPeriod, now)) send(0x01, errors_, state_ | static_cast<std::uint32_t>(procedure_) << 8U);
+  if (!estimates_ || !is_due(said_estimates_, kPeriod, now)) return;
   send(0x09, std::bit_cast<std::uint32_t>(static_cast<float>(felt_position())),
-       std::bit_cast<std::uint32_t>(static_cast<float>(has_encoder_ ? encoder_velocity_ : velocity_)));
+       std::bit_cast<std::uint32_t>(static_cast<float>(felt_velocity())));
 }
 
 void OdriveNode::send(std::uint32_t command, std::uint32_t first, std::uint32_t second) noexcept {
   CanFrame frame;
   frame.id = static_cast<std::uint32_t>(node_) << 5U | command;
   frame.size = 8;
-  wire::put_little_endian(first, frame.bytes);
-  wire::put_little_endian(second, std::span(frame.bytes).subspan(4));
+  wire::put_little_endian(first | std::uint64_t{second} << 32U, frame.bytes);
   MotorNode::send(frame);
 }
 
@@ -125,15 +105,9 @@ void VescNode::set_timeout(std::uint32_t timeout_ms, float brake_current_a) noex
   brake_current_a_ = brake_current_a;
 }
 
-void VescNode::step(Time now) {
-  ReceivedFrame received;
-  while (bus_.receive(received))
-    if (connected_) take(received.frame, now);
+void VescNode::watch(Time now) noexcept {
   const bool expired = timeout_ms_ > 0 && fed_ != kNever && now - fed_ > std::chrono::milliseconds(timeout_ms_);
   if (expired) mode_ = brake_current_a_ > 0.0F ? Mode::kBrake : Mode::kCurrent;
-  if (stepped_ != kNever) move(to_seconds(now - stepped_));
-  stepped_ = now;
-  say(now);
 }
 
 void VescNode::take(const CanFrame& frame, Time now) {
@@ -171,7 +145,7 @@ void VescNode::send_settings(std::uint8_t to) {
   wire::put_big_endian(told_ms_, std::span(all).subspan(6));
   wire::put_big_endian(std::bit_cast<std::uint32_t>(brake_current_a_), std::span(all).subspan(10));
   for (std::size_t k = 14; k < all.size(); ++k) all[k] = static_cast<std::uint8_t>(k);
-  const std::uint16_t sum = crc16(all);
+  const unsigned sum = crc(all, 16, 0x11021);  // x^16 + x^12 + x^5 + 1
   if (damaged_) all[8] ^= 1U;
   std::size_t at = 0;
   for (; at < 256; at += 7) {
@@ -184,12 +158,8 @@ void VescNode::send_settings(std::uint8_t to) {
     for (std::size_t k = at; k < std::min(at + 6, all.size()); ++k) piece.push_back(all[k]);
     send(6, to, piece);
   }
-  const std::array<std::uint8_t, 6> end{node_,
-                                        1,
-                                        static_cast<std::uint8_t>(all.size() >> 8U),
-                                        static_cast<std::uint8_t>(all.size()),
-                                        static_cast<std::uint8_t>(sum >> 8U),
-                                        static_cast<std::uint8_t>(sum)};
+  std::vector<std::uint8_t> end;
+  put(end, {{node_, 1}, {1, 1}, {kSettingsBytes >> 8U, 1}, {kSettingsBytes, 1}, {sum >> 8U, 1}, {sum, 1}});
   send(7, to, end);
 }
 
@@ -203,8 +173,7 @@ void VescNode::move(double seconds) noexcept {
 }
 
 void VescNode::say(Time now) noexcept {
-  if (said_ != kNever && now - said_ < kStatusPeriod) return;
-  said_ = now;
+  if (!is_due(said_, kPeriod, now)) return;
   std::array<std::uint8_t, 8> bytes{};
   const double felt = has_encoder_ ? 60.0 * encoder_velocity_ : erpm_;
   wire::put_big_endian(static_cast<std::uint32_t>(static_cast<std::int32_t>(felt)), bytes);

@@ -61,6 +61,9 @@ class Fields {
     }
     for (int k = bytes - 1; k >= 0; --k) made_ += static_cast<char>(value >> (8 * k));
   }
+  void numbers(std::initializer_list<Number> all) {
+    for (const Number& each : all) number(static_cast<std::uint32_t>(each.value), each.bytes);
+  }
   void word(const char* letters) {
     if (dialect_ == ColaDialect::kText) made_ += ' ';
     made_ += letters;
@@ -89,8 +92,7 @@ void ScipServer::on_bytes(wire::Bytes bytes) {
 void ScipServer::obey(const std::string& command) {
   if (!speaks_scip_2_) {
     speaks_scip_2_ = command == "SCIP2.0";
-    const std::string answered = command + (speaks_scip_2_ ? "\n0\n\n" : "\nE\n\n");
-    return answer({reinterpret_cast<const std::uint8_t*>(answered.data()), answered.size()});
+    return answer(command + (speaks_scip_2_ ? "\n0\n\n" : "\nE\n\n"));
   }
   if (command == "QT") {
     set_streaming(false);
@@ -120,8 +122,7 @@ void ScipServer::begin_scans(const std::string& command) {
 }
 
 void ScipServer::say(const std::string& command, const std::string& status, const std::string& lines) {
-  const std::string text = command + '\n' + with_sum(status) + '\n' + lines + '\n';
-  answer({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+  answer(command + '\n' + with_sum(status) + '\n' + lines + '\n');
 }
 
 std::string ScipServer::parameters() const {
@@ -177,7 +178,6 @@ void SickServer::on_bytes(wire::Bytes bytes) {
   while (take_command(command)) obey(command);
 }
 
-/// Cuts the next whole command off what came in.
 bool SickServer::take_command(std::string& command) {
   if (model_.dialect == ColaDialect::kText) {
     const std::size_t begin = came_in_.find('\x02');
@@ -219,11 +219,6 @@ void SickServer::obey(std::string_view command) {
   say(text ? "sFA 1" : std::string_view("sFA \x00\x01", 6));
 }
 
-void SickServer::say(std::string_view body) {
-  const std::string telegram = framed(body);
-  answer({reinterpret_cast<const std::uint8_t*>(telegram.data()), telegram.size()});
-}
-
 std::string SickServer::framed(std::string_view body) const {
   if (model_.dialect == ColaDialect::kText) return "\x02" + std::string(body) + "\x03";
   std::string telegram("\x02\x02\x02\x02");
@@ -239,34 +234,22 @@ ScannerServer::Message SickServer::message_of(std::size_t, Ranges range_m, Time 
     return kClockAtStart_us + static_cast<std::uint32_t>(us);
   };
   Fields fields(model_.dialect);
-  fields.number(1, 2);
-  fields.number(1, 2);
-  fields.number(0x00E0FFEE, 4);
-  fields.number(0, 1);
   const std::uint32_t dirt = window_ == Window::kClean ? 0 : window_ == Window::kSoiled ? 2 : 4;
-  fields.number((unwell_ ? 1U : 0U) | dirt, 1);
-  fields.number(++telegrams_, 2);
-  fields.number(++sweeps_, 2);
-  fields.number(on_device(began + shape().sweep), 4);
-  fields.number(on_device(now), 4);
-  for (int inputs_and_outputs = 0; inputs_and_outputs < 4; ++inputs_and_outputs) fields.number(0, 1);
-  fields.number(0, 2);
-  fields.number(static_cast<std::uint32_t>(std::floor(model_.rate_hz * 100.0 + 0.5)), 4);
-  fields.number(162, 4);
-  fields.number(0, 2);  // encoders
-  fields.number(1, 2);  // channels of 16 bits
+  const auto rate_chz = static_cast<std::uint32_t>(std::floor(model_.rate_hz * 100.0 + 0.5));
+  fields.numbers({{1, 2}, {1, 2}, {0x00E0FFEE, 4}, {0, 1}, {(unwell_ ? 1U : 0U) | dirt, 1}});
+  fields.numbers({{++telegrams_, 2}, {++sweeps_, 2}, {on_device(began + shape().sweep), 4}, {on_device(now), 4}});
+  fields.numbers({{0, 1}, {0, 1}, {0, 1}, {0, 1}, {0, 2}});   // inputs and outputs
+  fields.numbers({{rate_chz, 4}, {162, 4}, {0, 2}, {1, 2}});  // no encoders, one channel of 16 bits
   fields.word("DIST1");
-  fields.number(0x3F800000, 4);  // millimetres
-  fields.number(0, 4);
-  fields.number(static_cast<std::uint32_t>(model_.first_angle_tdeg), 4);
-  fields.number(model_.step_tdeg, 2);
-  fields.number(model_.beams, 2);
+  fields.numbers({{0x3F800000, 4}, {0, 4}});  // millimetres
+  fields.numbers({{static_cast<std::uint32_t>(model_.first_angle_tdeg), 4}, {model_.step_tdeg, 2}, {model_.beams, 2}});
   for (const float m : range_m) {
     constexpr std::uint32_t kNoEcho = 0, kNotMeasured = 2;  // the latter as a recorded TiM has it
     const bool seen = static_cast<double>(m) <= model_.range_max_m && m > 0.0F;
     fields.number(seen ? in_counts(m, 0.001) : m > 0.0F ? kNoEcho : kNotMeasured, 2);
   }
-  for (int k = 0; k < 6; ++k) fields.number(0, 2);  // channels of 8 bits, position, name, comment, time, event
+  fields.numbers(
+      {{0, 2}, {0, 2}, {0, 2}, {0, 2}, {0, 2}, {0, 2}});  // channels of 8 bits, position, name, comment, time, event
   const std::string telegram = framed("sSN LMDscandata " + fields.made());
   return {telegram.begin(), telegram.end()};
 }

@@ -8,7 +8,6 @@
 
 namespace jaywalk::emulators {
 
-/// What kind of Hokuyo it is; a UTM-30LX.
 struct ScipModel {
   std::uint32_t steps_per_turn = 1440;
   std::uint32_t first_step = 0;
@@ -28,7 +27,6 @@ class ScipServer final : public ScannerServer {
 
   /// It speaks SCIP 1.1 until it hears SCIP2.0, as a URG-04LX.
   void begin_with_scip_1() noexcept { speaks_scip_2_ = false; }
-  /// The laser does not come on any more.
   void break_laser() noexcept { broken_ = true; }
   /// The status that comes in place of each scan, as "0L" for a broken laser; empty: it is well.
   void set_status(std::string status) { status_ = std::move(status); }
@@ -90,7 +88,7 @@ class SickServer final : public ScannerServer {
 
   [[nodiscard]] bool take_command(std::string& command);
   void obey(std::string_view command);
-  void say(std::string_view body);
+  void say(std::string_view body) { answer(framed(body)); }
   [[nodiscard]] std::string framed(std::string_view body) const;
 
   SickModel model_;

@@ -1,6 +1,5 @@
 #include "hil/emulators/scanner_server.h"
 
-#include <algorithm>
 #include <utility>
 
 #include "hal/types/geometry.h"
@@ -99,10 +98,7 @@ void ScannerServer::send(Message message, Time now) {
   switch (fault_) {
     case ScannerFault::kSilence:
     case ScannerFault::kGone: return;
-    case ScannerFault::kHalfTelegram:
-      message.resize(message.size() / 2);
-      fault_ = ScannerFault::kNone;
-      break;
+    case ScannerFault::kHalfTelegram: fault_ = ScannerFault::kNone; [[fallthrough]];
     case ScannerFault::kHalves: message.resize(message.size() / 2); break;
     case ScannerFault::kDamage: message[message.size() / 2] ^= 0x5AU; break;
     case ScannerFault::kGarbage:

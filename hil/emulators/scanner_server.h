@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "hal/types/time.h"
@@ -13,7 +14,6 @@
 
 namespace jaywalk::emulators {
 
-/// What a scanner does wrong, to order.
 enum class ScannerFault : std::uint8_t {
   kNone,
   kReset,         ///< tears the connection, once
@@ -64,8 +64,7 @@ inline constexpr double kTurnsPerS = 10.0;
 }
 
 /// A scanner at the far end of a wire: sweeps without end, asks the world for ranges while it does, and tells its
-/// clients. How commands and scans look is the derived class' matter. For tests and the bench; it shares no
-/// code with the driver that it talks to, except how numbers stand in bytes.
+/// clients. It shares no code with the driver that it talks to, except how numbers stand in bytes.
 class ScannerServer {
  public:
   /// Fills in the ranges (m) that beams `first_beam` onwards measure at this moment, as in hal's LaserScan: infinity
@@ -76,9 +75,8 @@ class ScannerServer {
   ScannerServer(std::unique_ptr<ByteServer> wire, const SweepShape& shape, std::size_t beams_per_message, World world);
   virtual ~ScannerServer() = default;
 
-  /// Takes what came in, measures the beams whose time has come, and sends each message when its last beam is
-  /// measured.
-  /// Called about once a millisecond; an irregular caller makes irregular scans, as a busy scanner does.
+  /// Takes what came in, measures the beams whose time has come, and sends the messages that are complete. Called about
+  /// once a millisecond; an irregular caller makes irregular scans, as a busy scanner does.
   void step(Time now);
   /// From now on, for `duration` where it is something that lasts; takes the place of what was ordered before.
   void order(ScannerFault fault, Duration duration = Duration{0});
@@ -98,7 +96,6 @@ class ScannerServer {
   [[nodiscard]] const SweepShape& shape() const noexcept { return shape_; }
   /// Messages with ranges, a sweep each for most scanners.
   [[nodiscard]] std::uint64_t messages_sent() const noexcept { return messages_sent_; }
-  /// How often a client connected.
   [[nodiscard]] std::uint64_t peers() const noexcept { return wire_->peers(); }
   [[nodiscard]] bool is_streaming() const noexcept { return streaming_; }
 
@@ -114,6 +111,7 @@ class ScannerServer {
 
   void set_streaming(bool on) noexcept { streaming_ = on; }
   void answer(wire::Bytes bytes) { wire_->write(bytes); }
+  void answer(std::string_view text) { answer({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}); }
 
  private:
   void end_fault(Time now);

@@ -1,6 +1,5 @@
 #include "hil/emulators/serial_scanners.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -11,17 +10,6 @@ namespace {
 
 constexpr std::size_t kPacketPoints = 12, kPackets = 38, kBeams = kPacketPoints * kPackets;
 constexpr double kStep_deg = 360.0 / kBeams;
-
-/// Remainder of the polynomial x^8 + x^6 + x^3 + x^2 + 1, by long division over all bits.
-std::uint8_t crc8(const std::vector<std::uint8_t>& bytes) {
-  unsigned rest = 0;
-  for (std::size_t bit = 0; bit < 8 * (bytes.size() + 1); ++bit) {
-    const unsigned next = bit / 8 < bytes.size() ? (static_cast<unsigned>(bytes[bit / 8]) >> (7 - bit % 8)) & 1U : 0U;
-    rest = rest << 1U | next;
-    if ((rest & 0x100U) != 0) rest ^= 0x14DU;
-  }
-  return static_cast<std::uint8_t>(rest);
-}
 
 constexpr std::size_t kPoints = 360, kTogether = 8;
 
@@ -56,11 +44,7 @@ LdServer::LdServer(std::unique_ptr<ByteServer> wire, World world)
 
 ScannerServer::Message LdServer::message_of(std::size_t first_beam, Ranges range_m, Time, Time now) {
   std::vector<std::uint8_t> packet{0x54, 0x2C};
-  const auto word = [&packet](double value) {
-    const auto number = static_cast<std::uint16_t>(value);
-    packet.push_back(static_cast<std::uint8_t>(number));
-    packet.push_back(static_cast<std::uint8_t>(number >> 8U));
-  };
+  const auto word = [&packet](double value) { put(packet, static_cast<std::uint16_t>(value), 2); };
   word(360.0 * kTurnsPerS);
   word(100.0 * kStep_deg * static_cast<double>(first_beam) + 0.5);
   for (const float m : range_m) {
@@ -69,9 +53,8 @@ ScannerServer::Message LdServer::message_of(std::size_t first_beam, Ranges range
     packet.push_back(200);  // how strong the return was
   }
   word(100.0 * kStep_deg * static_cast<double>(first_beam + kPacketPoints - 1) + 0.5);
-  word(static_cast<double>(std::chrono::duration_cast<std::chrono::milliseconds>(now.time_since_epoch()).count() %
-                           30000));
-  packet.push_back(crc8(packet));
+  put(packet, std::chrono::duration_cast<std::chrono::milliseconds>(now.time_since_epoch()).count() % 30000, 2);
+  put(packet, crc(packet, 8, 0x14D), 1);  // x^8 + x^6 + x^3 + x^2 + 1
   return packet;
 }
 
@@ -112,9 +95,7 @@ ScannerServer::Message RplidarServer::message_of(std::size_t first_beam, Ranges 
     const auto range_q2 = range_m[k] > 0.0F && range_m[k] <= 16.0F ? in_counts(range_m[k], 0.00025) : 0U;
     const bool begins = first_beam + k == 0;
     const unsigned quality = range_q2 > 0 ? 47 : 0;
-    for (const unsigned byte :
-         {quality << 2U | (begins ? 1U : 2U), angle_q6 << 1U | 1U, angle_q6 >> 7U, range_q2, range_q2 >> 8U})
-      message.push_back(static_cast<std::uint8_t>(byte));
+    put(message, {{quality << 2U | (begins ? 1U : 2U), 1}, {angle_q6 << 1U | 1U, 2}, {range_q2, 2}});
   }
   return message;
 }
@@ -143,17 +124,11 @@ void Lms200Server::on_bytes(wire::Bytes bytes) {
 }
 
 std::vector<std::uint8_t> Lms200Server::framed(std::span<const std::uint8_t> body) const {
-  const std::size_t length = body.size() + 1;
-  std::vector<std::uint8_t> made(4 + length);
-  made[0] = 0x02;
-  made[1] = 0x80;
-  made[2] = static_cast<std::uint8_t>(length % 256);
-  made[3] = static_cast<std::uint8_t>(length / 256);
-  std::copy(body.begin(), body.end(), made.begin() + 4);
-  made.back() = status_;
-  const std::uint16_t sum = check(made);
-  made.push_back(static_cast<std::uint8_t>(sum % 256));
-  made.push_back(static_cast<std::uint8_t>(sum / 256));
+  std::vector<std::uint8_t> made{0x02, 0x80};
+  put(made, static_cast<std::int64_t>(body.size()) + 1, 2);
+  made.insert(made.end(), body.begin(), body.end());
+  made.push_back(status_);
+  put(made, check(made), 2);
   return made;
 }
 
@@ -162,8 +137,7 @@ ScannerServer::Message Lms200Server::message_of(std::size_t, Ranges range_m, Tim
   for (const float m : range_m) {
     constexpr unsigned kBeyond = 8183, kDazzled = 8190;
     const unsigned cm = m > 80.0F ? kBeyond : m > 0.0F ? in_counts(m, 0.01) : kDazzled;
-    body.push_back(static_cast<std::uint8_t>(cm % 256));
-    body.push_back(static_cast<std::uint8_t>(cm / 256));
+    put(body, cm, 2);
   }
   return framed(body);
 }

@@ -24,7 +24,6 @@ class RplidarServer final : public ScannerServer {
  public:
   RplidarServer(std::unique_ptr<ByteServer> wire, World world);
 
-  /// It says of itself that it is broken.
   void break_down() noexcept { status_ = 2; }
   /// Its turns begin at this angle, degrees, and end beyond 360.
   void begin_turns_at(double angle_deg) noexcept { first_q6_ = static_cast<unsigned>(64.0 * angle_deg); }

@@ -7,84 +7,29 @@
 #include "hal/types/errors.h"
 #include "hil/emulators/arcos_board.h"
 #include "hil/emulators/cia402_node.h"
-#include "hil/emulators/motor_node.h"
 #include "hil/emulators/network_scanners.h"
 #include "hil/emulators/serial_scanners.h"
 
 namespace jaywalk::rig {
 namespace {
 
-using emulators::Cia402Node;
-using emulators::VescNode;
-
 /// Its heartbeat tells so late that the watchdog expired.
 constexpr Duration kOdriveHeartbeat = std::chrono::milliseconds(10);
-
-/// `Node` moves and measures in units of its own, `units_per_rad` of them a radian of the wheel.
-template <class Node>
-class NodeDrive final : public WheelDrive {
- public:
-  NodeDrive(CanBus& bus, std::uint8_t number, double units_per_rad)
-      : node_(bus, number), units_per_rad_(units_per_rad) {}
-
-  void step(Time now) override { node_.step(now); }
-  [[nodiscard]] double speed_radps() const noexcept override { return node_.velocity() / units_per_rad_; }
-  void measure(double speed_radps, double turned_rad) noexcept override {
-    node_.measure(speed_radps * units_per_rad_, turned_rad * units_per_rad_);
-  }
-  [[nodiscard]] std::string_view state_name() const noexcept override { return node_.state_name(); }
-  [[nodiscard]] Time heard_controller() const noexcept override { return node_.heard_controller(); }
-  void raise_fault(std::uint16_t code) noexcept override { node_.raise_fault(code); }
-  void pull_cable() noexcept override { node_.pull_cable(); }
-  void plug_cable() noexcept override { node_.plug_cable(); }
-  void restart() noexcept override { node_.restart(); }
-  void stick() noexcept override {
-    if constexpr (std::is_same_v<Node, Cia402Node>)
-      node_.hang();
-    else
-      node_.stick();
-  }
-  void lose_feedback() noexcept override {
-    if constexpr (std::is_same_v<Node, Cia402Node>)
-      node_.lose_feedback();
-    else
-      node_.mute();
-  }
-  void show_mode_late(Duration delay) noexcept override {
-    if constexpr (std::is_same_v<Node, Cia402Node>) node_.show_mode_after_enabling(delay);
-  }
-  void let_go_below(double speed_radps) noexcept override {
-    if constexpr (std::is_same_v<Node, VescNode>)
-      node_.set_minimum_erpm(60.0 * speed_radps * std::fabs(units_per_rad_));
-  }
-  [[nodiscard]] emulators::DriveObjects* objects() noexcept override {
-    if constexpr (std::is_same_v<Node, Cia402Node>) return &node_.objects();
-    return nullptr;
-  }
-
-  [[nodiscard]] Node& node() noexcept { return node_; }
-
- private:
-  Node node_;
-  double units_per_rad_;
-};
 
 /// One motor of a Pioneer, on side 0 (left) or 1. Whatever befalls its board befalls both.
 class ArcosMotor final : public WheelDrive {
  public:
   ArcosMotor(std::shared_ptr<emulators::ArcosBoard> board, std::size_t side, double mm_per_rad)
-      : board_(std::move(board)), side_(side), mm_per_rad_(mm_per_rad) {}
+      : WheelDrive(mm_per_rad), board_(std::move(board)), side_(side) {}
 
   void step(Time now) override {
     if (side_ == 0) board_->step(now);
   }
-  [[nodiscard]] double speed_radps() const noexcept override { return board_->velocity(side_) / mm_per_rad_; }
-  void measure(double speed_radps, double turned_rad) noexcept override {
-    board_->measure(side_, speed_radps * mm_per_rad_, turned_rad * mm_per_rad_);
-  }
+  [[nodiscard]] double velocity() const noexcept override { return board_->velocity(side_); }
+  void measure(double velocity, double position) noexcept override { board_->measure(side_, velocity, position); }
   [[nodiscard]] std::string_view state_name() const noexcept override { return board_->state_name(); }
   [[nodiscard]] Time heard_controller() const noexcept override { return board_->heard_controller(); }
-  void raise_fault(std::uint16_t) noexcept override { board_->stall(side_, true); }
+  void raise_fault(std::uint32_t) noexcept override { board_->stall(side_, true); }
   void pull_cable() noexcept override { board_->pull_cable(); }
   void plug_cable() noexcept override { board_->plug_cable(); }
   void restart() noexcept override { board_->restart(); }
@@ -98,7 +43,6 @@ class ArcosMotor final : public WheelDrive {
  private:
   std::shared_ptr<emulators::ArcosBoard> board_;
   std::size_t side_;
-  double mm_per_rad_;
 };
 
 std::array<std::unique_ptr<WheelDrive>, 2> make_arcos_motors(const arcos::BaseSetup& setup, CanBus& line) {
@@ -140,10 +84,10 @@ std::array<std::unique_ptr<WheelDrive>, 2> make_wheel_drives(const DriveWiring& 
 
 std::unique_ptr<WheelDrive> make_wheel_drive(const DriveWiring& wiring, std::size_t side, CanBus& bus) {
   const auto [node, per_rad] = wiring.axes()[side];
-  if (wiring.kind == DriveKind::kVesc) return std::make_unique<NodeDrive<VescNode>>(bus, node, per_rad);
-  if (wiring.kind != DriveKind::kOdrive) return std::make_unique<NodeDrive<Cia402Node>>(bus, node, per_rad);
-  auto drive = std::make_unique<NodeDrive<OdriveNode>>(bus, node, per_rad);
-  drive->node().set_watchdog(std::max<Duration>(kOdriveWatchdog, wiring.odrive.watchdog_least + kOdriveHeartbeat));
+  if (wiring.kind == DriveKind::kVesc) return std::make_unique<VescNode>(bus, node, per_rad);
+  if (wiring.kind != DriveKind::kOdrive) return std::make_unique<Cia402Node>(bus, node, per_rad);
+  auto drive = std::make_unique<OdriveNode>(bus, node, per_rad);
+  drive->set_watchdog(std::max<Duration>(kOdriveWatchdog, wiring.odrive.watchdog_least + kOdriveHeartbeat));
   return drive;
 }
 

@@ -80,8 +80,8 @@ void SimulatedRobot::turn_wheels() {
   if (age(encoders_read_, world_.now()) < kEncoderPeriod) return;
   encoders_read_ = world_.now();
   read_encoders();
-  drives_[0]->measure(shown_.left_radps, shown_.left_rad);
-  drives_[1]->measure(shown_.right_radps, shown_.right_rad);
+  drives_[0]->measure_wheel(shown_.left_radps, shown_.left_rad);
+  drives_[1]->measure_wheel(shown_.right_radps, shown_.right_rad);
 }
 
 void SimulatedRobot::read_encoders() {

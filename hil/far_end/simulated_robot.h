@@ -42,7 +42,6 @@ class SimulatedRobot {
   SimulatedRobot(const sim::Scenario& scenario, std::uint64_t seed, const RobotFile& wiring, const Buses& buses,
                  FarWires wires, Time now);
 
-  /// Moves drives, world and scanner on to now, by the clock.
   void step(Time now);
 
   [[nodiscard]] const sim::Truth& truth() const noexcept { return world_.truth(); }
@@ -51,7 +50,6 @@ class SimulatedRobot {
   /// A second drive with the number of the one on this side comes to its own place on the bus, which outlives this,
   /// says everything before that one and obeys what that one is told; its own wheel turns in the air.
   void add_twin(std::size_t side, CanBus& bus) { twin_ = make_wheel_drive(wiring_, side, bus); }
-  /// From now on.
   void deceive(const FalseSenses& senses) noexcept { senses_ = senses, deceived_ = world_.now(); }
   /// A person lifts the robot and puts it down there: `from_here`, seen from where it stands.
   void carry(const Pose2& from_here) noexcept { world_.plant().carry_to(truth().map_from_robot * from_here); }
@@ -68,7 +66,6 @@ class SimulatedRobot {
   [[nodiscard]] CanHealth bus_health() const noexcept;
 
  private:
-  /// A scanner and what it sees.
   struct Eye {
     std::size_t index;
     LaserModel laser;
@@ -102,8 +99,8 @@ class WatchedBus final : public CanBus {
   /// Both outlive it.
   WatchedBus(CanBus& bus, Clock& clock) noexcept : bus_(bus), clock_(clock) {}
 
-  [[nodiscard]] SendResult send(const CanFrame& frame) noexcept override {
-    const SendResult result = bus_.send(frame);
+  [[nodiscard]] bool send(const CanFrame& frame) noexcept override {
+    const bool result = bus_.send(frame);
     sent_ = clock_.now();
     return result;
   }
@@ -150,11 +147,6 @@ class InProcessRobot {
   [[nodiscard]] const std::vector<Time>& messages() const noexcept { return messages_; }
 
  private:
-  class NoBrake final : public EmergencyBrake {
-   public:
-    void brake() noexcept override {}
-  };
-
   InProcessRobot(RobotFile file, const sim::Scenario& scenario, std::uint64_t seed, Clock& clock, const Run& run,
                  FarWires wires);
   [[nodiscard]] SimulatedRobot::Buses places() noexcept;
@@ -173,7 +165,7 @@ class InProcessRobot {
   std::unique_ptr<WiredDrive> drive_;
   OperatorControls controls_;
   LoopRunner runner_;
-  NoBrake no_brake_;
+  FrameBrake no_brake_{bus_, {}};
   StallGuard guard_;  ///< not started: time may stand still here
   RobotLoop loop_;
   std::vector<Time> messages_;

@@ -1,5 +1,3 @@
-#include "hil/faults/fault_bench.h"
-
 #include <cmath>
 
 #include "firmware/safety/wheel_proof.h"
@@ -18,16 +16,11 @@ constexpr Reason kByReports =
     Reason::kDrive | Reason::kWheelsStale | Reason::kWheelsDisobey | Reason::kMotionMismatch | Reason::kStopUnconfirmed;
 constexpr Duration kLongest = std::chrono::seconds(15), kAfterwards = std::chrono::milliseconds(600);
 
-std::string in_words(const char* format, double a, double b) { return formatted(format, a, b); }
-
 }  // namespace
 
 FaultBench::FaultBench(const FaultCase& fault, DriveKind kind, double speed_mps, double rate_hz,
                        const std::filesystem::path& folder)
-    : fault_(fault),
-      kind_(kind),
-      speed_mps_(speed_mps),
-      file_(robot_file(kind, speed_mps, rate_hz, folder, {fault.claims_free, fault.of_two.has_value()})) {
+    : fault_(fault), kind_(kind), speed_mps_(speed_mps), file_(robot_file(fault, kind, speed_mps, rate_hz, folder)) {
   file_.drive.arcos.allow_unproved = fault.allow_unproved;
   const auto straight = [this](const ControlSetup&) {
     auto planner = std::make_unique<StraightPlanner>();
@@ -116,14 +109,14 @@ void FaultBench::begin_watch() {
   place_ = robot_->far_end().truth().map_from_robot.position();
 }
 
-/// Until the robot has stood for ten ticks.
-void FaultBench::endure() {
+double FaultBench::endure() {
   int at_rest = 0;
   for (const Time end = due_ + kLongest; due_ < end && at_rest < 10;) {
     if (fault_.every_tick != nullptr) fault_.every_tick(*this);
     tick();
     at_rest = rim_mps() < kAtRest_mps ? at_rest + 1 : 0;
   }
+  return way_m_;
 }
 
 FaultResult FaultBench::struck_at_speed() {
@@ -134,9 +127,8 @@ FaultResult FaultBench::struck_at_speed() {
   }
   begin_watch();
   fault_.strike(*this);
-  endure();
+  result.stop_distance_m = endure();
   result.reaction = last_fast_ - struck_;
-  result.stop_distance_m = way_m_;
   if (fault_.at_rest != nullptr) fault_.at_rest(*this);
   return result;
 }
@@ -158,8 +150,7 @@ FaultResult FaultBench::wrong_in_turn() {
   if (fault_.strike != nullptr) fault_.strike(*this);
   for (const Time end = due_ + std::chrono::seconds(5); due_ < end && !latched_;) tick();
   result.reaction = clock_.now() - struck_;
-  endure();
-  result.stop_distance_m = way_m_;
+  result.stop_distance_m = endure();
   return result;
 }
 
@@ -173,8 +164,7 @@ FaultResult FaultBench::struck_at_rest() {
   way_m_ = 0.0;
   for (const Time end = due_ + std::chrono::seconds(5); due_ < end && !latched_;) tick();
   result.reaction = clock_.now() - struck_;
-  endure();
-  result.stop_distance_m = way_m_;
+  result.stop_distance_m = endure();
   return result;
 }
 
@@ -203,13 +193,13 @@ std::string FaultBench::complaint(const FaultResult& result) {
   const double rim = rim_mps();
   if (!named(fault_.reason) || !scanner_named()) return "not named: " + to_string(seen_, faulty_);
   const double reaction_ms = 1e3 * to_seconds(result.reaction), limit_ms = 1e3 * to_seconds(result.limit);
-  if (result.reaction > result.limit) return in_words("reaction %.0f ms, more than %.0f", reaction_ms, limit_ms);
-  if (rim > kAtRest_mps) return in_words("still %.2f m/s after %.0f s", rim, to_seconds(kLongest));
+  if (result.reaction > result.limit) return formatted("reaction %.0f ms, more than %.0f", reaction_ms, limit_ms);
+  if (rim > kAtRest_mps) return formatted("still %.2f m/s after %.0f s", rim, to_seconds(kLongest));
   if (fault_.outcome == Outcome::kLatched && !result.latched) return "not latched";
   const double v = speed_struck_;
   const double most_m = v * to_seconds(result.limit) + v * v / (2.0 * kBrake_mps2) + kBeyond_m;
   if (rolls_out() || fault_.in_turn || result.stop_distance_m <= most_m) return "";
-  return in_words("%.2f m to rest, more than %.2f", result.stop_distance_m, most_m);
+  return formatted("%.2f m to rest, more than %.2f", result.stop_distance_m, most_m);
 }
 
 /// Whatever is asked of it, it stays where it is until a reset.
@@ -221,7 +211,7 @@ std::string FaultBench::complaint_afterwards() {
     if (fault_.every_tick != nullptr) fault_.every_tick(*this);
     tick();
   }
-  return way_m_ - before_m > 0.01 ? in_words("moved %.2f m while latched (%.0f)", way_m_ - before_m, 0.0) : "";
+  return way_m_ - before_m > 0.01 ? formatted("moved %.2f m while latched (0)", way_m_ - before_m) : "";
 }
 
 }  // namespace jaywalk::faults

@@ -64,15 +64,15 @@ const char* name_of(DriveKind kind) noexcept {
   return kNames.at(static_cast<std::size_t>(kind));
 }
 
-RobotFile robot_file(DriveKind kind, double speed_mps, double rate_hz, const std::filesystem::path& folder,
-                     const Scanners& scanners) {
-  const std::string scans = scanners.claims_free ? "\"hokuyo\"\nbeams = 1081\nrange_m = 30.0\n" : "\"sick-cola-b\"\n";
+RobotFile robot_file(const FaultCase& fault, DriveKind kind, double speed_mps, double rate_hz,
+                     const std::filesystem::path& folder) {
+  const std::string scans = fault.claims_free ? "\"hokuyo\"\nbeams = 1081\nrange_m = 30.0\n" : "\"sick-cola-b\"\n";
   const std::string scanner = "[[laser]]\nhost = \"127.0.0.1\"\nkind = " + scans;
   write_text(folder / "model.toml", model_text(speed_mps), kOtherOut);
   write_text(folder / "robot.toml",
              std::string("model = \"model.toml\"\nstart = [1.5, 2.5, 0.0]\nrate_hz = ") + std::to_string(rate_hz) +
                  "\n" + scanner +
-                 (scanners.second ? scanner + "port = 2113\nmount = [-0.2, 0.0, 3.14159]\nrate_hz = 20.0\n" : "") +
+                 (fault.of_two ? scanner + "port = 2113\nmount = [-0.2, 0.0, 3.14159]\nrate_hz = 20.0\n" : "") +
                  "[drive]\nkind = \"" + name_of(kind) + "\"\n" + drive_keys(kind),
              kOtherOut);
   RobotFile file = load_robot_file(folder / "robot.toml");

@@ -21,6 +21,7 @@
 #include "hal/types/errors.h"
 #include "hal/types/trig.h"
 #include "hil/emulators/byte_server.h"
+#include "hil/emulators/cia402_node.h"
 #include "hil/far_end/simulated_robot.h"
 
 namespace jaywalk::rig {
@@ -56,21 +57,23 @@ std::optional<std::string> order_loss(const std::string& what, std::istringstrea
   return "";
 }
 
+struct FaultRow {
+  std::string_view order;
+  ScannerFault fault;
+};
+constexpr std::array kFaults{FaultRow{"reset", ScannerFault::kReset},     FaultRow{"half", ScannerFault::kHalfTelegram},
+                             FaultRow{"halves", ScannerFault::kHalves},   FaultRow{"silence", ScannerFault::kSilence},
+                             FaultRow{"garbage", ScannerFault::kGarbage}, FaultRow{"gone", ScannerFault::kGone}};
+
 std::string order_scanner(std::istringstream& words, SimulatedRobot& robot) {
   std::string what;
   double seconds = 0.0;
   words >> what;
   if (const auto answer = order_loss(what, words, robot.scanner())) return *answer;
   words >> seconds;
-  ScannerFault fault = ScannerFault::kNone;
-  if (what == "reset") fault = ScannerFault::kReset;
-  if (what == "half") fault = ScannerFault::kHalfTelegram;
-  if (what == "halves") fault = ScannerFault::kHalves;
-  if (what == "silence") fault = ScannerFault::kSilence;
-  if (what == "garbage") fault = ScannerFault::kGarbage;
-  if (what == "gone") fault = ScannerFault::kGone;
-  if (fault == ScannerFault::kNone) return "no such fault of a scanner: " + what;
-  robot.scanner().order(fault, duration_from_seconds(seconds));
+  const auto* const row = std::ranges::find(kFaults, what, &FaultRow::order);
+  if (row == kFaults.end()) return "no such fault of a scanner: " + what;
+  robot.scanner().order(row->fault, duration_from_seconds(seconds));
   return "";
 }
 
@@ -92,11 +95,6 @@ std::string order_frame(std::istringstream& words, SimulatedRobot& robot) {
 
 constexpr double kMoves_mps = 0.005;  ///< a wheel that turns faster is under way; at 0 it is at rest
 
-template <class... Values>
-std::string text(const char* format, Values... values) {
-  return formatted(format, values...);
-}
-
 /// What happened at the far end, for judging a run: a line an event, "SECONDS words", seconds since start.
 ///
 /// A drive's state that changes; the wheels begin to turn, come to rest and how; at the end what the world knows.
@@ -105,16 +103,64 @@ std::string text(const char* format, Values... values) {
 class PlantLog {
  public:
   /// Throws StartupError where the file cannot be written.
-  PlantLog(const std::filesystem::path& file, Time start);
-  void event(Time now, const std::string& words);
+  PlantLog(const std::filesystem::path& file, Time start) : file_(file), start_(start) {
+    if (!file_) throw StartupError(file.string() + ": cannot be written", "give --log a file that can");
+    event(start, "ready");
+  }
+
+  void event(Time now, const std::string& words) {
+    file_ << formatted("%.3f ", to_seconds(now - start_)) << words << std::endl;
+  }
+
   /// Notes that this program itself ran late; the controller under test is not to blame.
-  void late(Time now, Duration by);
-  void follow(SimulatedRobot& robot, Time now);
-  void finish(SimulatedRobot& robot, Time now);
+  void late(Time now, Duration by) { event(now, formatted("late by %.0f ms", 1e3 * to_seconds(by))); }
+
+  void follow(SimulatedRobot& robot, Time now) {
+    for (std::size_t side = 0; side < 2; ++side) follow_drive(robot, side, now);
+    follow_motion(robot, now);
+  }
+
+  void finish(SimulatedRobot& robot, Time now) {
+    const sim::Truth& truth = robot.truth();
+    const CanHealth bus = robot.bus_health();
+    event(now, formatted("ends at %.3f %.3f %.3f", truth.map_from_robot.x, truth.map_from_robot.y,
+                         truth.map_from_robot.heading));
+    event(now, formatted("drove %.2f m", way_m_));
+    event(now,
+          formatted("contacts %u caused %u forced %u", truth.contacts, truth.contacts_caused, truth.forced_movers));
+    event(now, formatted("frames lost %llu malformed %llu", static_cast<unsigned long long>(bus.frames_lost),
+                         static_cast<unsigned long long>(bus.malformed)));
+    event(now, "drives " + std::string(robot.drive(0).state_name()) + " " + std::string(robot.drive(1).state_name()));
+  }
 
  private:
-  void follow_drive(SimulatedRobot& robot, std::size_t side, Time now);
-  void follow_motion(SimulatedRobot& robot, Time now);
+  void follow_drive(SimulatedRobot& robot, std::size_t side, Time now) {
+    const WheelDrive& drive = robot.drive(side);
+    if (drive.heard_controller() != kNever && drive.heard_controller() != heard_[side]) {
+      heard_[side] = drive.heard_controller();
+      speed_heard_mps_ = robot.rim_speed();
+    }
+    if (drive.state_name() == state_[side]) return;
+    state_[side] = drive.state_name();
+    event(now, std::string(side == 0 ? "left " : "right ") + state_[side]);
+  }
+
+  void follow_motion(SimulatedRobot& robot, Time now) {
+    const Vec2 place = robot.truth().map_from_robot.position();
+    if (place_) way_m_ += distance(*place_, place);
+    place_ = place;
+    const double speed = robot.rim_speed();
+    if (!moving_ && speed > kMoves_mps) {
+      moving_ = true;
+      event(now, "moving");
+    }
+    if (moving_ && speed == 0.0) {
+      moving_ = false;
+      const double silent_ms = 1e3 * to_seconds(now - std::max(heard_[0], heard_[1]));
+      event(now, formatted("at rest, %.0f ms after the controller was last heard, from %.3f m/s", silent_ms,
+                           speed_heard_mps_));
+    }
+  }
 
   std::ofstream file_;
   Time start_;
@@ -123,8 +169,7 @@ class PlantLog {
   bool moving_ = false;
   double speed_heard_mps_ = 0.0;  ///< of the faster wheel, at the controller's last heartbeat
   double way_m_ = 0.0;
-  Vec2 place_{};
-  bool has_place_ = false;
+  std::optional<Vec2> place_;
 };
 
 /// What the far end is told to do wrong, a line an order:
@@ -152,77 +197,21 @@ std::string obey(std::string_view order, SimulatedRobot& robot) {
   words >> side >> std::hex >> number >> sub;
   if (side != "left" && side != "right") return "left or right? " + std::string(order);
   WheelDrive& drive = robot.drive(side == "left" ? 0 : 1);
-  const canopen::ObjectAddress object{static_cast<std::uint16_t>(number), static_cast<std::uint8_t>(sub)};
+  auto* const canopen = dynamic_cast<emulators::Cia402Node*>(&drive);
+  const jaywalk::canopen::ObjectAddress object{static_cast<std::uint16_t>(number), static_cast<std::uint8_t>(sub)};
   if (what == "emergency")
     drive.raise_fault(static_cast<std::uint16_t>(number));
   else if (what == "unplug")
     drive.pull_cable();
   else if (what == "plug")
     drive.plug_cable();
-  else if (what == "lie" && drive.objects() != nullptr)
-    drive.objects()->lie_about(object);
-  else if (what == "lack" && drive.objects() != nullptr)
-    drive.objects()->lack(object);
+  else if (what == "lie" && canopen != nullptr)
+    canopen->objects().lie_about(object);
+  else if (what == "lack" && canopen != nullptr)
+    canopen->objects().lack(object);
   else
     return "no such order: " + std::string(order);
   return "";
-}
-
-PlantLog::PlantLog(const std::filesystem::path& file, Time start) : file_(file), start_(start) {
-  if (!file_) throw StartupError(file.string() + ": cannot be written", "give --log a file that can");
-  event(start, "ready");
-}
-
-void PlantLog::event(Time now, const std::string& words) {
-  file_ << text("%.3f ", to_seconds(now - start_)) << words << std::endl;
-}
-
-void PlantLog::late(Time now, Duration by) { event(now, text("late by %.0f ms", 1e3 * to_seconds(by))); }
-
-void PlantLog::follow(SimulatedRobot& robot, Time now) {
-  for (std::size_t side = 0; side < 2; ++side) follow_drive(robot, side, now);
-  follow_motion(robot, now);
-}
-
-void PlantLog::follow_drive(SimulatedRobot& robot, std::size_t side, Time now) {
-  const WheelDrive& drive = robot.drive(side);
-  if (drive.heard_controller() != kNever && drive.heard_controller() != heard_[side]) {
-    heard_[side] = drive.heard_controller();
-    speed_heard_mps_ = robot.rim_speed();
-  }
-  if (drive.state_name() == state_[side]) return;
-  state_[side] = drive.state_name();
-  event(now, std::string(side == 0 ? "left " : "right ") + state_[side]);
-}
-
-void PlantLog::follow_motion(SimulatedRobot& robot, Time now) {
-  const Vec2 place = robot.truth().map_from_robot.position();
-  if (has_place_) way_m_ += distance(place_, place);
-  place_ = place;
-  has_place_ = true;
-  const double speed = robot.rim_speed();
-  if (!moving_ && speed > kMoves_mps) {
-    moving_ = true;
-    event(now, "moving");
-  }
-  if (moving_ && speed == 0.0) {
-    moving_ = false;
-    const double silent_ms = 1e3 * to_seconds(now - std::max(heard_[0], heard_[1]));
-    event(now,
-          text("at rest, %.0f ms after the controller was last heard, from %.3f m/s", silent_ms, speed_heard_mps_));
-  }
-}
-
-void PlantLog::finish(SimulatedRobot& robot, Time now) {
-  const sim::Truth& truth = robot.truth();
-  const CanHealth bus = robot.bus_health();
-  event(now,
-        text("ends at %.3f %.3f %.3f", truth.map_from_robot.x, truth.map_from_robot.y, truth.map_from_robot.heading));
-  event(now, text("drove %.2f m", way_m_));
-  event(now, text("contacts %u caused %u forced %u", truth.contacts, truth.contacts_caused, truth.forced_movers));
-  event(now, text("frames lost %llu malformed %llu", static_cast<unsigned long long>(bus.frames_lost),
-                  static_cast<unsigned long long>(bus.malformed)));
-  event(now, "drives " + std::string(robot.drive(0).state_name()) + " " + std::string(robot.drive(1).state_name()));
 }
 
 }  // namespace

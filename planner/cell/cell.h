@@ -1,7 +1,6 @@
 #pragma once
-// Cell functions take values and return a value: no pointer, no index, no memory space. The same
-// source runs on the processor and on the graphics card, and must give the same bits on both, so
-// they use + - x / sqrt, comparisons, integers and the polynomials of exp_log.h, nothing else.
+// Cell functions take values and return a value. The same source gives the same bits on the processor and on the
+// graphics card: of + - x / sqrt, comparisons, integers and the polynomials of exp_log.h alone.
 #ifdef __CUDACC__
 #define JAYWALK_CELL __host__ __device__ inline
 #define JAYWALK_ANYWHERE __host__ __device__ inline
@@ -9,6 +8,7 @@
 #define JAYWALK_ANYWHERE inline                     // for functions too long to be put into each of their callers
 #define JAYWALK_CELL [[gnu::always_inline]] inline  // a stage that is called cannot go four cells at a time
 #endif
+#include <cstdint>
 #include <limits>
 
 namespace jaywalk::cell {

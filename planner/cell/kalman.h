@@ -3,8 +3,7 @@
 
 namespace jaywalk::cell {
 
-/// Position and velocity along one axis with their covariance (constant velocity, white noise
-/// acceleration). Any one unit of length; seconds.
+/// Position and velocity along one axis with their covariance. Any one unit of length; seconds.
 struct AxisState {
   float position, velocity;
   float pp, pv, vv;

@@ -97,6 +97,7 @@ class CellGraph {
   [[nodiscard]] std::int32_t at(std::int32_t i, std::int32_t j) const noexcept {
     return (j + kRing) * width_ + i + kRing;
   }
+  [[nodiscard]] std::int32_t at(CellIndex cell) const noexcept { return at(cell.i, cell.j); }
   [[nodiscard]] CellIndex cell_of(std::int32_t n) const noexcept { return {n % width_ - kRing, n / width_ - kRing}; }
   /// Half of what a straight step among such cells costs, a unit of its length; 0: not free.
   void set_rate(std::int32_t n, std::uint32_t rate) noexcept {

@@ -6,7 +6,6 @@
 #include <iterator>
 #include <utility>
 
-#include "planner/cost_to_go/planning_rules.h"
 #include "planner/cost_to_go/pose_price.h"
 
 namespace jaywalk::field {
@@ -30,7 +29,8 @@ constexpr float kTightWeightOfLong = 3.0F;  ///< a long one drives through lengt
 constexpr float kLong_m = 0.3F;             ///< from the inscribed circle to the corners'
 constexpr float kTight_m = 0.03F;           ///< beyond the corners' circle
 constexpr float kBlocked_m = 0.01F;         ///< beyond the inscribed circle
-constexpr float kUnseenWeight = 8.0F;       ///< near the robot, what it has not seen yet
+constexpr float kUnseenWeight = 8.0F;       ///< near the robot, what it has not seen yet:
+constexpr double kUnseenRadius_m = 2.0;     ///< a body must not back into it
 
 /// Then none counts: the robot may leave.
 bool is_in(const KeepOut& zones, Vec2 robot_in_map) {
@@ -67,22 +67,21 @@ TimeToGoField::TimeToGoField(double inscribed_m, double circumscribed_m, std::in
 }
 
 Guide TimeToGoField::settle(const TimeToGoRequest& request, Memory& memory) noexcept {
-  const Window& window = request.window;
-  const CellBox box = box_of(request);
-  const bool same_ground = window == window_ && box == box_;
-  window_ = window, box_ = box;
+  const Window last_window = std::exchange(window_, request.window);
+  const CellBox last_box = std::exchange(box_, box_of(request));
+  const bool same_ground = window_ == last_window && box_ == last_box;
   ++round_;
-  std::fill_n(memory.unseen.begin(), window.grid().cells(), std::uint8_t{0});
-  surfaces_.find(window, box, request.still, request.movers, memory.unseen.data());
-  weigh(request, box, same_ground, memory.unseen.data());
-  settle_costs(request, box, same_ground);
-  write(request, box, memory);
-  const Place low = place_of(window.in_map({0.0, 0.0}));
+  std::fill_n(memory.unseen.begin(), window_.grid().cells(), std::uint8_t{0});
+  surfaces_.find(window_, box_, request.still, request.movers, memory.unseen.data());
+  weigh(request, same_ground, memory.unseen.data());
+  settle_costs(request, same_ground);
+  write(request, memory);
+  const Place low = place_of(window_.in_map({0.0, 0.0}));
   return {low.x,
           low.y,
-          static_cast<float>(window.cell_m),
-          window.side,
-          leads_through_unseen(request, box, memory.unseen.data()),
+          static_cast<float>(window_.cell_m),
+          window_.side,
+          leads_through_unseen(request, memory.unseen.data()),
           memory.surface.data(),
           memory.unseen.data(),
           memory.to_go_s.data(),
@@ -100,16 +99,15 @@ void TimeToGoField::draw(const Guide& guide, float* seconds) const noexcept {
 
 /// Everything that is known, keep-out zones, robot and goal, and three metres about them: room enough to walk round.
 CellBox TimeToGoField::box_of(const TimeToGoRequest& request) noexcept {
-  const Window& window = request.window;
-  const std::int32_t last = window.side - 1, margin = static_cast<std::int32_t>(3.0 / window.cell_m);
-  const CellIndex robot = window.cell_at(request.robot_in_map);
-  const CellIndex goal = projected_goal(window, request.robot_in_map, request.goal_in_map);
+  const std::int32_t last = window_.side - 1, margin = static_cast<std::int32_t>(3.0 / window_.cell_m);
+  const CellIndex robot = window_.cell_at(request.robot_in_map);
+  const CellIndex goal = projected_goal(window_, request.robot_in_map, request.goal_in_map);
   CellBox box{std::min(robot.i, goal.i), std::min(robot.j, goal.j), std::max(robot.i, goal.i),
               std::max(robot.j, goal.j)};
-  const auto row_end = evidence_.begin() + window.side;
+  const auto row_end = evidence_.begin() + window_.side;
   const auto is_wall = [](std::int8_t evidence) { return evidence > EvidenceMap::kOccupied; };
   for (std::int32_t j = 0; request.still != nullptr && j <= last; ++j) {
-    request.still->copy_row({window.low.i, window.low.j + j}, window.side, evidence_.data());
+    request.still->copy_row({window_.low.i, window_.low.j + j}, window_.side, evidence_.data());
     const auto first = std::find_if(evidence_.begin(), row_end, is_wall);
     if (first == row_end) continue;
     const auto after = std::find_if(std::make_reverse_iterator(row_end), evidence_.rend(), is_wall).base();
@@ -117,9 +115,9 @@ CellBox TimeToGoField::box_of(const TimeToGoRequest& request) noexcept {
            std::max(box.i1, static_cast<std::int32_t>(after - evidence_.begin()) - 1), std::max(box.j1, j)};
   }
   if (keep_out_.known()) {
-    const CellIndex low = window.cell_at({static_cast<double>(keep_out_.low_x), static_cast<double>(keep_out_.low_y)});
+    const CellIndex low = window_.cell_at({static_cast<double>(keep_out_.low_x), static_cast<double>(keep_out_.low_y)});
     const auto cells = [&](std::int32_t nodes) {
-      return static_cast<std::int32_t>(static_cast<double>(keep_out_.node_m) * nodes / window.cell_m);
+      return static_cast<std::int32_t>(static_cast<double>(keep_out_.node_m) * nodes / window_.cell_m);
     };
     box = {std::min(box.i0, low.i), std::min(box.j0, low.j), std::max(box.i1, low.i + cells(keep_out_.width)),
            std::max(box.j1, low.j + cells(keep_out_.height))};
@@ -136,50 +134,47 @@ std::uint16_t TimeToGoField::rate_at(float d) const noexcept {
 }
 
 /// Whether the shortest way from the robot, or from the nearest cell that has one, soon passes what was never seen.
-bool TimeToGoField::leads_through_unseen(const TimeToGoRequest& request, const CellBox& box,
-                                         const std::uint8_t* unseen) const noexcept {
-  const CellIndex robot = request.window.cell_at(request.robot_in_map);
+bool TimeToGoField::leads_through_unseen(const TimeToGoRequest& request, const std::uint8_t* unseen) const noexcept {
+  const CellIndex robot = window_.cell_at(request.robot_in_map);
   std::int32_t i = robot.i, j = robot.j;
   for (double gone = 0.0; gone < kUnseenRadius_m;) {
     std::uint32_t least = kNoWay;
     CellStep best{};
     for (const CellStep& n : CellGraph::kSteps) {
       const std::int32_t x = i + n.di, y = j + n.dj;
-      if (x < box.i0 || y < box.j0 || x > box.i1 || y > box.j1) continue;
+      if (x < box_.i0 || y < box_.j0 || x > box_.i1 || y > box_.j1) continue;
       const std::uint32_t cost = graph_.cost(graph_.at(x, y));
       if (cost < least) least = cost, best = n;
     }
     if (least == kNoWay) return false;
     i += best.di, j += best.dj;
-    if (unseen[request.window.grid().at(i, j)] != 0) return true;
+    if (unseen[window_.grid().at(i, j)] != 0) return true;
     if (least == 0) return false;
-    gone += request.window.cell_m * best.length / kStraightLength;
+    gone += window_.cell_m * best.length / kStraightLength;
   }
   return false;
 }
 
-void TimeToGoField::weigh(const TimeToGoRequest& request, const CellBox& box, bool same_ground,
-                          const std::uint8_t* unseen) noexcept {
-  const Window& window = request.window;
-  const auto cells = window.grid().cells();
+void TimeToGoField::weigh(const TimeToGoRequest& request, bool same_ground, const std::uint8_t* unseen) noexcept {
+  const auto cells = window_.grid().cells();
   const bool leaves_zone = is_in(keep_out_, request.robot_in_map);
   const bool anew = std::exchange(leaves_zone_, leaves_zone) != leaves_zone;
   if (!same_ground) std::fill_n(ground_rate_.begin(), cells, std::uint16_t{0});
-  for (std::int32_t i = box.i0; i <= box.i1; ++i) {
-    middle_x_m_[static_cast<std::size_t>(i)] = place_of(window.in_map({i + 0.5, 0.0})).x;
+  for (std::int32_t i = box_.i0; i <= box_.i1; ++i) {
+    middle_x_m_[static_cast<std::size_t>(i)] = place_of(window_.in_map({i + 0.5, 0.0})).x;
   }
-  for (std::int32_t j = 0; j < window.side; ++j) {
+  for (std::int32_t j = 0; j < window_.side; ++j) {
     if (surfaces_.is_new(j)) row_round_[static_cast<std::size_t>(j)] = round_;
-    if ((anew || surfaces_.is_new(j)) && j >= box.j0 && j <= box.j1) weigh_ground(window, box, j);
+    if ((anew || surfaces_.is_new(j)) && j >= box_.j0 && j <= box_.j1) weigh_ground(j);
   }
   rate_.swap(last_rate_);
   std::copy_n(ground_rate_.begin(), cells, rate_.begin());
-  for_each_in_disc(window, box, request.robot_in_map, kUnseenRadius_m, [&](std::int32_t c) {
+  for_each_in_disc(window_, box_, request.robot_in_map, kUnseenRadius_m, [&](std::int32_t c) {
     if (unseen[c] != 0) add_weight(c, kUnseenWeight);
   });
   for (const StandingPedestrian& pedestrian : request.standing) {
     const auto beside = [&](float gap_m, float weight) {
-      for_each_in_disc(window, box, pedestrian.position_in_map,
+      for_each_in_disc(window_, box_, pedestrian.position_in_map,
                        pedestrian.radius_m + static_cast<double>(blocked_m_ + gap_m),
                        [&](std::int32_t c) { add_weight(c, weight); });
     };
@@ -189,11 +184,11 @@ void TimeToGoField::weigh(const TimeToGoRequest& request, const CellBox& box, bo
 }
 
 /// Weights by the nearer of surface and keep-out zone. A robot in a zone has none closed, or it would have no way out.
-void TimeToGoField::weigh_ground(const Window& window, const CellBox& box, std::int32_t j) noexcept {
+void TimeToGoField::weigh_ground(std::int32_t j) noexcept {
   constexpr auto kInZone = static_cast<std::uint16_t>(kRates * kDearest);
-  const float y = place_of(window.in_map({0.0, j + 0.5})).y;
-  for (std::int32_t i = box.i0; i <= box.i1; ++i) {
-    const auto c = static_cast<std::size_t>(window.grid().at(i, j));
+  const float y = place_of(window_.in_map({0.0, j + 0.5})).y;
+  for (std::int32_t i = box_.i0; i <= box_.i1; ++i) {
+    const auto c = static_cast<std::size_t>(window_.grid().at(i, j));
     const Place& surface = surfaces_.surface()[c];
     const float x = middle_x_m_[static_cast<std::size_t>(i)], dx = surface.x - x, dy = surface.y - y;
     std::uint16_t& rate = ground_rate_[c] = rate_at(std::sqrt(dx * dx + dy * dy));
@@ -210,50 +205,46 @@ void TimeToGoField::add_weight(std::int32_t c, float weight) noexcept {
 }
 
 /// The goal's cell, or the nearest free one; kNone where there is none near or the goal is outside.
-std::int32_t TimeToGoField::goal_cell(const TimeToGoRequest& request, const CellBox& box) const noexcept {
-  const Window& window = request.window;
-  const Grid grid = window.grid();
-  if (!window.holds(request.goal_in_map, 0)) return CellGraph::kNone;
+std::int32_t TimeToGoField::goal_cell(const TimeToGoRequest& request) const noexcept {
+  const Grid grid = window_.grid();
+  if (!window_.holds(request.goal_in_map, 0)) return CellGraph::kNone;
   std::int32_t best = -1;
   double least = kGoalRadius_m;
-  for_each_in_disc(window, box, request.goal_in_map, kGoalRadius_m, [&](std::int32_t c) {
+  for_each_in_disc(window_, box_, request.goal_in_map, kGoalRadius_m, [&](std::int32_t c) {
     if (rate_[static_cast<std::size_t>(c)] == 0) return;
-    const double away = distance(window.in_map({c % grid.side + 0.5, c / grid.side + 0.5}), request.goal_in_map);
+    const double away = distance(window_.in_map({c % grid.side + 0.5, c / grid.side + 0.5}), request.goal_in_map);
     if (away < least) least = away, best = c;
   });
   return best < 0 ? CellGraph::kNone : graph_.at(best % grid.side, best / grid.side);
 }
 
 /// For a goal outside every cell of the border, with what is left beyond.
-void TimeToGoField::seed_border(const TimeToGoRequest& request, const CellBox& box) noexcept {
-  const Window& window = request.window;
+void TimeToGoField::seed_border(const TimeToGoRequest& request) noexcept {
   const FarGuide* const far =
       request.far != nullptr && request.far->has_way_near(request.robot_in_map) ? request.far : nullptr;
   const double through = distance(request.robot_in_map, request.goal_in_map);
   const auto add = [&](std::int32_t i, std::int32_t j) {
     const std::int32_t n = graph_.at(i, j);
-    if (rate_[static_cast<std::size_t>(window.grid().at(i, j))] == 0 || graph_.cost(n) != kNoWay) return;
-    const Vec2 here = window.in_map({i + 0.5, j + 0.5});
+    if (rate_[static_cast<std::size_t>(window_.grid().at(i, j))] == 0 || graph_.cost(n) != kNoWay) return;
+    const Vec2 here = window_.in_map({i + 0.5, j + 0.5});
     // Straight on, relative to the straight way, so that a goal far off costs no more than numbers hold.
     const double more = far != nullptr
                             ? far->to_go_m(here)
-                            : distance(here, request.goal_in_map) - through + window.side * window.cell_m * 1.5;
+                            : distance(here, request.goal_in_map) - through + window_.side * window_.cell_m * 1.5;
     if (std::isinf(more)) return;
-    repair_.offer(graph_, n, static_cast<std::uint32_t>(std::max(0.0, more) / window.cell_m * kCostsPerCell));
+    repair_.offer(graph_, n, static_cast<std::uint32_t>(std::max(0.0, more) / window_.cell_m * kCostsPerCell));
   };
-  for (std::int32_t i = box.i0; i <= box.i1; ++i) add(i, box.j0), add(i, box.j1);
-  for (std::int32_t j = box.j0; j <= box.j1; ++j) add(box.i0, j), add(box.i1, j);
+  for (std::int32_t i = box_.i0; i <= box_.i1; ++i) add(i, box_.j0), add(i, box_.j1);
+  for (std::int32_t j = box_.j0; j <= box_.j1; ++j) add(box_.i0, j), add(box_.i1, j);
 }
 
-void TimeToGoField::settle_costs(const TimeToGoRequest& request, const CellBox& box, bool same_ground) noexcept {
-  const CellIndex at = request.window.cell_at(request.robot_in_map);
-  graph_.take_grid(request.window.grid());
-  const std::int32_t robot = graph_.at(at.i, at.j);
-  const std::int32_t goal = goal_cell(request, box), last = std::exchange(goal_, goal);
-  if (certified_ && same_ground && goal != CellGraph::kNone && goal == last &&
-      repair_costs(request.window.grid(), robot))
+void TimeToGoField::settle_costs(const TimeToGoRequest& request, bool same_ground) noexcept {
+  graph_.take_grid(window_.grid());
+  const std::int32_t robot = graph_.at(window_.cell_at(request.robot_in_map));
+  const std::int32_t goal = goal_cell(request), last = std::exchange(goal_, goal);
+  if (certified_ && same_ground && goal != CellGraph::kNone && goal == last && repair_costs(window_.grid(), robot))
     return;
-  settle_anew(request, box, robot);
+  settle_anew(request, robot);
 }
 
 /// False where all is to be settled anew.
@@ -273,11 +264,11 @@ bool TimeToGoField::repair_costs(Grid grid, std::int32_t robot) noexcept {
   return changed_.size() <= cells / kFewOf && repair_.repair(graph_, changed_) && graph_.reaches(robot, kBeyondRobot);
 }
 
-void TimeToGoField::settle_anew(const TimeToGoRequest& request, const CellBox& box, std::int32_t robot) noexcept {
-  const Grid grid = request.window.grid();
+void TimeToGoField::settle_anew(const TimeToGoRequest& request, std::int32_t robot) noexcept {
+  const Grid grid = window_.grid();
   graph_.clear();
-  for (std::int32_t j = box.j0; j <= box.j1; ++j) {
-    for (std::int32_t i = box.i0; i <= box.i1; ++i) {
+  for (std::int32_t j = box_.j0; j <= box_.j1; ++j) {
+    for (std::int32_t i = box_.i0; i <= box_.i1; ++i) {
       graph_.set_rate(graph_.at(i, j), rate_[static_cast<std::size_t>(grid.at(i, j))]);
     }
   }
@@ -285,23 +276,21 @@ void TimeToGoField::settle_anew(const TimeToGoRequest& request, const CellBox& b
   graph_.end_beyond(robot, kKeptBeyondRobot);
   repair_.clear();
   if (goal_ != CellGraph::kNone) repair_.offer(graph_, goal_, 0);
-  if (!request.window.holds(request.goal_in_map, 0)) seed_border(request, box);
+  if (!window_.holds(request.goal_in_map, 0)) seed_border(request);
   // Room for two entries a cell has always done.
   certified_ = (settler_ != nullptr && settler_->settle({grid.side, robot, kKeptBeyondRobot, graph_.nodes()})) ||
                repair_.settle(graph_);
   graph_.keep_end();
 }
 
-void TimeToGoField::write(const TimeToGoRequest& request, const CellBox& box, Memory& memory) noexcept {
-  const Window& window = request.window;
-  const Grid grid = window.grid();
-  const CellIndex robot = window.cell_at(request.robot_in_map);
-  const std::uint32_t last = graph_.beyond(graph_.at(robot.i, robot.j), kBeyondRobot);
-  const double seconds = window.cell_m / (std::max(request.speed_mps, 0.05) * kCostsPerCell);
+void TimeToGoField::write(const TimeToGoRequest& request, Memory& memory) noexcept {
+  const Grid grid = window_.grid();
+  const std::uint32_t last = graph_.beyond(graph_.at(window_.cell_at(request.robot_in_map)), kBeyondRobot);
+  const double seconds = window_.cell_m / (std::max(request.speed_mps, 0.05) * kCostsPerCell);
   std::fill_n(memory.to_go_s.begin(), grid.cells(), Guide::kNoWay_s);
-  for (std::int32_t j = box.j0; j <= box.j1; ++j) {
+  for (std::int32_t j = box_.j0; j <= box_.j1; ++j) {
     float* to_go_s = &memory.to_go_s[static_cast<std::size_t>(grid.at(0, j))];
-    for (std::int32_t i = box.i0; i <= box.i1; ++i) {
+    for (std::int32_t i = box_.i0; i <= box_.i1; ++i) {
       const std::uint32_t cost = graph_.cost(graph_.at(i, j));
       to_go_s[i] = cost <= last ? static_cast<float>(static_cast<double>(cost) * seconds) : Guide::kNoWay_s;
     }

@@ -112,17 +112,16 @@ class TimeToGoField {
 
  private:
   [[nodiscard]] CellBox box_of(const TimeToGoRequest& request) noexcept;
-  void weigh(const TimeToGoRequest& request, const CellBox& box, bool same_ground, const std::uint8_t* unseen) noexcept;
-  void weigh_ground(const Window& window, const CellBox& box, std::int32_t j) noexcept;
+  void weigh(const TimeToGoRequest& request, bool same_ground, const std::uint8_t* unseen) noexcept;
+  void weigh_ground(std::int32_t j) noexcept;
   void add_weight(std::int32_t c, float weight) noexcept;
-  void settle_costs(const TimeToGoRequest& request, const CellBox& box, bool same_ground) noexcept;
+  void settle_costs(const TimeToGoRequest& request, bool same_ground) noexcept;
   [[nodiscard]] bool repair_costs(Grid grid, std::int32_t robot) noexcept;
-  void settle_anew(const TimeToGoRequest& request, const CellBox& box, std::int32_t robot) noexcept;
-  [[nodiscard]] std::int32_t goal_cell(const TimeToGoRequest& request, const CellBox& box) const noexcept;
-  void seed_border(const TimeToGoRequest& request, const CellBox& box) noexcept;
-  void write(const TimeToGoRequest& request, const CellBox& box, Memory& memory) noexcept;
-  [[nodiscard]] bool leads_through_unseen(const TimeToGoRequest& request, const CellBox& box,
-                                          const std::uint8_t* unseen) const noexcept;
+  void settle_anew(const TimeToGoRequest& request, std::int32_t robot) noexcept;
+  [[nodiscard]] std::int32_t goal_cell(const TimeToGoRequest& request) const noexcept;
+  void seed_border(const TimeToGoRequest& request) noexcept;
+  void write(const TimeToGoRequest& request, Memory& memory) noexcept;
+  [[nodiscard]] bool leads_through_unseen(const TimeToGoRequest& request, const std::uint8_t* unseen) const noexcept;
   [[nodiscard]] std::uint16_t rate_at(float distance_m) const noexcept;
 
   float blocked_m_, tight_m_, tight_weight_;
@@ -130,7 +129,7 @@ class TimeToGoField {
   KeepOut keep_out_;
   bool leaves_zone_ = false;  ///< the robot is in one
   NearestSurfaces surfaces_;
-  Window window_;  ///< of the last time
+  Window window_;  ///< of the request, and what of it the work is limited to
   CellBox box_;
   std::uint64_t round_ = 0;
   std::vector<std::uint64_t> row_round_;         ///< in which a row's surfaces changed last

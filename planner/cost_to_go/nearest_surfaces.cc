@@ -37,12 +37,12 @@ void NearestSurfaces::find(const Window& window, const CellBox& box, const Evide
                            std::span<const MoverDisc> movers, std::uint8_t* unseen) noexcept {
   const Grid grid = window.grid();
   const auto cells = static_cast<std::size_t>(grid.cells()), side = static_cast<std::size_t>(grid.side);
-  const bool anew = !(window == window_ && box == box_);
-  if (!(window == window_)) std::fill_n(has_own_.begin(), cells, std::uint8_t{0});
+  const bool anew = window != window_ || box != box_;
+  if (window != window_) std::fill_n(has_own_.begin(), cells, std::uint8_t{0});
   window_ = window, box_ = box;
   walls_.swap(last_walls_);
   moved_.clear();
-  fetch(window, box, still, unseen);
+  fetch(still, unseen);
   for (const MoverDisc& mover : movers) {
     for_each_in_disc(window, box, mover.centre_in_map, mover.radius_m + kOwnBody_m,
                      [this](std::int32_t c) { walls_[static_cast<std::size_t>(c)] = 0; });
@@ -51,27 +51,27 @@ void NearestSurfaces::find(const Window& window, const CellBox& box, const Evide
   if (anew) std::fill_n(surface_.begin(), cells, kNowhere);
   if (anew || std::memcmp(walls_.data(), last_walls_.data(), cells) != 0) {
     rows_.swap(last_rows_);
-    spread_along_columns(grid, box);
+    spread_along_columns();
     for (std::size_t j = 0; j < side; ++j) {
       if (std::memcmp(&rows_[j * side], &last_rows_[j * side], side * sizeof(std::int16_t)) != 0) is_new_[j] = 1;
     }
   }
-  for (const std::int32_t c : moved_) mark_rows_that_see(grid, box, c % grid.side, c / grid.side);
+  for (const std::int32_t c : moved_) mark_rows_that_see(c % grid.side, c / grid.side);
   for (std::int32_t j = box.j0; j <= box.j1; ++j) {
-    if (is_new(j)) spread_along_row(grid, box, j);
+    if (is_new(j)) spread_along_row(j);
   }
 }
 
-void NearestSurfaces::fetch(const Window& window, const CellBox& box, const EvidenceMap* still,
-                            std::uint8_t* unseen) noexcept {
-  const auto count = static_cast<std::size_t>(box.i1 - box.i0 + 1);
-  std::fill_n(walls_.begin(), window.grid().cells(), std::uint8_t{0});
+void NearestSurfaces::fetch(const EvidenceMap* still, std::uint8_t* unseen) noexcept {
+  const std::int32_t width = box_.i1 - box_.i0 + 1;
+  const auto count = static_cast<std::size_t>(width);
+  std::fill_n(walls_.begin(), window_.grid().cells(), std::uint8_t{0});
   if (still == nullptr) return;
-  for (std::int32_t j = box.j0; j <= box.j1; ++j) {
-    const CellIndex first{window.low.i + box.i0, window.low.j + j};
-    still->copy_row(first, box.i1 - box.i0 + 1, evidence_.data());
-    still->copy_row_of_surfaces(first, box.i1 - box.i0 + 1, offset_.data());
-    const auto c = static_cast<std::size_t>(window.grid().at(box.i0, j));
+  for (std::int32_t j = box_.j0; j <= box_.j1; ++j) {
+    const CellIndex first{window_.low.i + box_.i0, window_.low.j + j};
+    still->copy_row(first, width, evidence_.data());
+    still->copy_row_of_surfaces(first, width, offset_.data());
+    const std::size_t c = at(box_.i0, j);
     std::uint8_t any_moved = 0;
     for (std::size_t k = 0; k < count; ++k) {
       const std::uint8_t wall = evidence_[k] > EvidenceMap::kOccupied ? 1 : 0;
@@ -90,28 +90,27 @@ void NearestSurfaces::fetch(const Window& window, const CellBox& box, const Evid
   }
 }
 
-void NearestSurfaces::mark_rows_that_see(Grid grid, const CellBox& box, std::int32_t i, std::int32_t j) noexcept {
-  for (std::int32_t row = std::max(j - kReach, box.j0); row <= std::min(j + kReach, box.j1); ++row) {
-    const std::int16_t away = rows_[static_cast<std::size_t>(grid.at(i, row))];
+void NearestSurfaces::mark_rows_that_see(std::int32_t i, std::int32_t j) noexcept {
+  for (std::int32_t row = std::max(j - kReach, box_.j0); row <= std::min(j + kReach, box_.j1); ++row) {
+    const std::int16_t away = rows_[at(i, row)];
     if (away != kNoRow && row + away == j) is_new_[static_cast<std::size_t>(row)] = 1;
   }
 }
 
 /// How many rows up or down the nearest occupied cell of the same column is.
-void NearestSurfaces::spread_along_columns(Grid grid, const CellBox& box) noexcept {
-  const auto at = [&grid](std::int32_t i, std::int32_t j) { return static_cast<std::size_t>(grid.at(i, j)); };
-  for (std::size_t c = 0; c < static_cast<std::size_t>(grid.cells()); ++c) {
+void NearestSurfaces::spread_along_columns() noexcept {
+  for (std::size_t c = 0; c < static_cast<std::size_t>(window_.grid().cells()); ++c) {
     rows_[c] = walls_[c] != 0 ? std::int16_t{0} : kNoRow;
   }
-  for (std::int32_t j = box.j0 + 1; j <= box.j1; ++j) {
-    for (std::int32_t i = box.i0; i <= box.i1; ++i) {
+  for (std::int32_t j = box_.j0 + 1; j <= box_.j1; ++j) {
+    for (std::int32_t i = box_.i0; i <= box_.i1; ++i) {
       const std::int16_t below = rows_[at(i, j - 1)];
       if (rows_[at(i, j)] == 0 || below == kNoRow || below <= -kReach) continue;
       rows_[at(i, j)] = static_cast<std::int16_t>(below - 1);
     }
   }
-  for (std::int32_t j = box.j1 - 1; j >= box.j0; --j) {
-    for (std::int32_t i = box.i0; i <= box.i1; ++i) {
+  for (std::int32_t j = box_.j1 - 1; j >= box_.j0; --j) {
+    for (std::int32_t i = box_.i0; i <= box_.i1; ++i) {
       const std::int16_t above = rows_[at(i, j + 1)], here = rows_[at(i, j)];
       if (above == kNoRow || above < 0 || above >= kReach || size_of(here) <= above + 1) continue;
       rows_[at(i, j)] = static_cast<std::int16_t>(above + 1);
@@ -121,30 +120,29 @@ void NearestSurfaces::spread_along_columns(Grid grid, const CellBox& box) noexce
 
 /// By the lower envelope of the columns' parabolas (planner/cell/cell.h): what a cell keeps is the surface of the
 /// column that is nearest to it.
-void NearestSurfaces::spread_along_row(Grid grid, const CellBox& box, std::int32_t j) noexcept {
-  const auto at = [&](std::int32_t i) { return static_cast<std::size_t>(grid.at(i, j)); };
-  const auto height = [&](std::int32_t i) { return size_of(rows_[at(i)]); };
+void NearestSurfaces::spread_along_row(std::int32_t j) noexcept {
+  const auto height = [&](std::int32_t i) { return size_of(rows_[at(i, j)]); };
   std::size_t count = 0;
-  std::fill(surface_.begin() + grid.at(box.i0, j), surface_.begin() + grid.at(box.i1, j) + 1, kNowhere);
-  for (std::int32_t u = box.i0; u <= box.i1; ++u) {
-    if (rows_[at(u)] == kNoRow) continue;
+  std::fill(&surface_[at(box_.i0, j)], &surface_[at(box_.i1, j)] + 1, kNowhere);
+  for (std::int32_t u = box_.i0; u <= box_.i1; ++u) {
+    if (rows_[at(u, j)] == kNoRow) continue;
     const auto loses = [&](std::size_t k) {
       return cell::squared_distance(begin_[k], column_[k], height(column_[k])) >
              cell::squared_distance(begin_[k], u, height(u));
     };
     while (count > 0 && loses(count - 1)) --count;
-    std::int32_t from = box.i0;
+    std::int32_t from = box_.i0;
     if (count > 0) {
       const std::int32_t before = column_[count - 1];
       from = 1 + cell::last_nearer(before, height(before), u, height(u));
     }
-    if (from > box.i1) continue;
+    if (from > box_.i1) continue;
     column_[count] = u;
-    begin_[count++] = from > box.i0 ? from : box.i0;
+    begin_[count++] = from > box_.i0 ? from : box_.i0;
   }
-  for (std::int32_t i = box.i1; i >= box.i0 && count > 0; --i) {
+  for (std::int32_t i = box_.i1; i >= box_.i0 && count > 0; --i) {
     const std::int32_t u = column_[count - 1];
-    if (std::abs(u - i) <= kReach) surface_[at(i)] = own_[static_cast<std::size_t>(grid.at(u, j + rows_[at(u)]))];
+    if (std::abs(u - i) <= kReach) surface_[at(i, j)] = own_[at(u, j + rows_[at(u, j)])];
     if (i == begin_[count - 1]) --count;
   }
 }

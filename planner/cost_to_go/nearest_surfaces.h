@@ -20,7 +20,7 @@ inline constexpr Place kNowhere{1e9F, 1e9F};
 
 [[nodiscard]] inline Place place_of(Vec2 p) { return {static_cast<float>(p.x), static_cast<float>(p.y)}; }
 
-/// Calls visit(c, i, j) for the cells inside `box` whose middle lies within a disc.
+/// Calls visit(c) for the cells inside `box` whose middle lies within a disc.
 template <class Visit>
 void for_each_in_disc(const Window& window, const CellBox& box, Vec2 centre, double radius_m, const Visit& visit) {
   const Vec2 half{radius_m, radius_m};
@@ -50,10 +50,13 @@ class NearestSurfaces {
   [[nodiscard]] bool is_new(std::int32_t j) const noexcept { return is_new_[static_cast<std::size_t>(j)] != 0; }
 
  private:
-  void fetch(const Window& window, const CellBox& box, const EvidenceMap* still, std::uint8_t* unseen) noexcept;
-  void mark_rows_that_see(Grid grid, const CellBox& box, std::int32_t i, std::int32_t j) noexcept;
-  void spread_along_columns(Grid grid, const CellBox& box) noexcept;
-  void spread_along_row(Grid grid, const CellBox& box, std::int32_t j) noexcept;
+  void fetch(const EvidenceMap* still, std::uint8_t* unseen) noexcept;
+  void mark_rows_that_see(std::int32_t i, std::int32_t j) noexcept;
+  void spread_along_columns() noexcept;
+  void spread_along_row(std::int32_t j) noexcept;
+  [[nodiscard]] std::size_t at(std::int32_t i, std::int32_t j) const noexcept {
+    return static_cast<std::size_t>(window_.grid().at(i, j));
+  }
 
   Window window_;  ///< of the last time
   CellBox box_;

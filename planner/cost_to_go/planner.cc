@@ -4,7 +4,6 @@
 #include <string>
 
 #include "hal/types/errors.h"
-#include "planner/cost_to_go/planning_rules.h"
 #include "planner/cost_to_go/time_to_go_planner.h"
 #include "planner/mapping/window.h"
 

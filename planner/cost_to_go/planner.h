@@ -141,4 +141,21 @@ class Planner {
 /// Plans by the time to go, on the CPU. Throws StartupError for a configuration that makes no sense.
 [[nodiscard]] std::unique_ptr<Planner> make_cpu_planner(const PlannerConfig& config);
 
+// Rules of thumb that planners share, and what they refuse.
+namespace field {
+
+/// A robot that stands in an obstacle or its inflation starts from the nearest free cell this near.
+inline constexpr double kStartRadius_m = 1.0;
+/// A goal that is not free is replaced by the nearest cell this near that the robot can reach.
+inline constexpr double kGoalRadius_m = 0.5;
+
+/// Throws StartupError for a configuration that makes no sense.
+void check(const PlannerConfig& config);
+/// The error of one value.
+[[noreturn]] void refuse(const char* name, double value, const char* remedy);
+
+/// True where pose, goal and speed are numbers.
+[[nodiscard]] bool is_finite(const PlanRequest& request) noexcept;
+
+}  // namespace field
 }  // namespace jaywalk

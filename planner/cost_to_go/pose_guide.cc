@@ -71,7 +71,7 @@ PoseGuide::Step PoseGuide::step(std::int32_t pose, const PoseMove& move) const n
   const std::int32_t to = pose + Lattice::offset(move.di, move.dj, heading - from);
   if (rate[pose] == 0 || rate[to] == 0) return {to};
   const std::uint32_t eighths = unseen == nullptr ? 0U : unseen[to];
-  return {to, price::cost_of(move, rate[pose], rate[to], eighths)};
+  return {to, price::cost_of(move.cost, rate[pose], rate[to], eighths, price::unseen_weight(move.gear, move.turn))};
 }
 
 /// The lattice's pose near to one from which the way is shortest, counting what it is off.

@@ -34,10 +34,4 @@ JAYWALK_CELL constexpr std::uint32_t cost_of(std::uint32_t in_open, std::uint32_
   return cost < kLeastCost ? kLeastCost : cost;
 }
 
-/// Cost of `move` between two poses.
-JAYWALK_CELL constexpr std::uint32_t cost_of(const PoseMove& move, std::uint32_t rate, std::uint32_t other_rate,
-                                             std::uint32_t unseen_eighths) {
-  return cost_of(move.cost, rate, other_rate, unseen_eighths, unseen_weight(move.gear, move.turn));
-}
-
 }  // namespace jaywalk::price

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "planner/cost_to_go/nearest_surfaces.h"
+
 namespace jaywalk::field {
 namespace {
 
@@ -11,8 +13,6 @@ constexpr float kNode_m = 0.025F;
 constexpr std::int32_t kSide = PoseLattice::kSide;
 
 constexpr std::int32_t kWallNodes = 24;  // about a wall's point: a body's half width and where it is dear
-constexpr std::int32_t kMost = 60;       // nodes that a body reaches
-
 constexpr std::int32_t kWallColumns = 2 * kWallNodes / PoseLook::kPerCell + 1;
 /// Table of distances from a wall's point, in units of room, by row and node off it. Every fourth node of a row lies
 /// side by side, as in PoseLook.
@@ -32,23 +32,30 @@ struct AwayFromWall {
 };
 const AwayFromWall kAwayFromWall;
 
-/// A place in a body's frame, turned to a heading and rounded to nodes.
-struct Offset {
-  std::int32_t x, y;
-};
-Offset turned(float x, float y, std::int32_t heading) {
+/// Node of a place in a body's frame, turned to a heading, about cell 0 in row 0: the first of 64 nodes, a cell apart.
+std::int32_t node_of(float x, float y, std::int32_t heading) {
   const cell::Heading a = cell::heading_at(static_cast<float>(heading) * PoseLattice::kStep_rad);
   const auto nodes = [](float m) {
-    return std::clamp(static_cast<std::int32_t>(std::lround(m / kNode_m)), -kMost, kMost);
+    const auto away = static_cast<std::int32_t>(std::lround(m / kNode_m));
+    return std::clamp(away, -PoseLook::kMargin, PoseLook::kMargin) + PoseLook::kPerCell / 2 + PoseLook::kMargin;
   };
-  return {nodes(x * a.x - y * a.y), nodes(x * a.y + y * a.x)};
+  const std::int32_t i = nodes(x * a.x - y * a.y), j = nodes(x * a.y + y * a.x);
+  return (i % PoseLook::kPerCell * PoseLook::kNodes + j) * PoseLook::kColumns + i / PoseLook::kPerCell;
 }
 
-/// Of 64 nodes, a cell apart, the first: that of cell 0 in row 0, moved by so many nodes.
-std::int32_t place_of_node(const Offset& at) {
-  const std::int32_t i = at.x + PoseLook::kPerCell / 2 + PoseLook::kMargin,
-                     j = at.y + PoseLook::kPerCell / 2 + PoseLook::kMargin;
-  return (i % PoseLook::kPerCell * PoseLook::kNodes + j) * PoseLook::kColumns + i / PoseLook::kPerCell;
+/// Sets every node, in the order of PoseLook, to value(x, y) of its place in the map; `low`: the lattice's low corner.
+template <class Value>
+void fill_nodes(Place low, std::vector<std::uint8_t>& nodes, const Value& value) {
+  for (std::int32_t phase = 0; phase < PoseLook::kPerCell; ++phase) {
+    for (std::int32_t j = 0; j < PoseLook::kNodes; ++j) {
+      const float y = low.y + static_cast<float>(j - PoseLook::kMargin) * kNode_m;
+      std::uint8_t* out = &nodes[static_cast<std::size_t>((phase * PoseLook::kNodes + j) * PoseLook::kColumns)];
+      for (std::int32_t k = 0; k < PoseLook::kColumns; ++k) {
+        const float x = low.x + static_cast<float>(k * PoseLook::kPerCell + phase - PoseLook::kMargin) * kNode_m;
+        out[k] = value(x, y);
+      }
+    }
+  }
 }
 
 }  // namespace
@@ -57,59 +64,40 @@ PoseRoom::PoseRoom(const Footprint& body)
     : nodes_(static_cast<std::size_t>(kNodes) * kNodes), unseen_(static_cast<std::size_t>(kNodes) * kNodes) {
   const auto front = static_cast<float>(body.front_m), rear = static_cast<float>(-body.rear_m),
              half = static_cast<float>(body.half_width_m), middle = 0.5F * (front + rear);
-  rim_ = {{{front, half},
-           {front, 0.0F},
-           {front, -half},
-           {middle, half},
-           {middle, -half},
-           {rear, half},
-           {rear, 0.0F},
-           {rear, -half}}};
+  const std::array<Place, 8> rim{{{front, half},
+                                  {front, 0.0F},
+                                  {front, -half},
+                                  {middle, half},
+                                  {middle, -half},
+                                  {rear, half},
+                                  {rear, 0.0F},
+                                  {rear, -half}}};
   const std::array<Vec2, 5> corners{{{body.front_m, -body.half_width_m},
                                      {body.front_m, body.half_width_m},
                                      {-body.rear_m, body.half_width_m},
                                      {-body.rear_m, -body.half_width_m},
                                      {body.front_m, -body.half_width_m}}};
+  std::vector<Place> points;  // in the body's frame
   for (std::size_t k = 0; k + 1 < corners.size(); ++k) {
     const Vec2 side = corners[k + 1] - corners[k];
     const double pieces = std::max(1.0, std::ceil(norm(side) / kSpacing_m - 1e-9));
     for (double n = 0.0; n < pieces; n += 1.0) {
-      const Vec2 p = corners[k] + side * (n / pieces);
-      add_point(static_cast<float>(p.x), static_cast<float>(p.y), 0);
+      points.push_back(place_of(corners[k] + side * (n / pieces)));
     }
   }
+  radius_.assign(points.size(), 0);
   const float radius = std::min(half, 0.5F * (front - rear)), between = front - rear - 2.0F * radius;
   const float gaps = std::ceil(between / std::max(radius, 0.05F));
   for (float k = 0.0F; k <= gaps; k += 1.0F) {
-    add_point(rear + radius + between * k / std::max(gaps, 1.0F), 0.0F,
-              static_cast<std::uint8_t>(std::min(radius / kUnit_m, 200.0F)));
+    points.push_back({rear + radius + between * k / std::max(gaps, 1.0F), 0.0F});
+    radius_.push_back(static_cast<std::uint8_t>(std::min(radius / kUnit_m, 200.0F)));
   }
-  place_points();
-}
-
-void PoseRoom::add_point(float x, float y, std::uint8_t radius) {
-  points_.push_back({x, y});
-  radius_.push_back(radius);
-}
-
-void PoseRoom::place_points() {
   for (std::int32_t heading = 0; heading < PoseLattice::kHeadings; ++heading) {
+    std::transform(rim.begin(), rim.end(), rim_[static_cast<std::size_t>(heading)].begin(),
+                   [heading](Place p) { return node_of(p.x, p.y, heading); });
     for (std::int32_t side = 0; side < PoseLook::kSides; ++side) {
       const float left = static_cast<float>(PoseLook::shift_of(side)) * kShift_m;
-      for (const Place& p : points_) places_.push_back(place_of_node(turned(p.x, p.y + left, heading)));
-    }
-  }
-}
-
-void PoseRoom::take_nodes(const Guide& guide, Place low) noexcept {
-  for (std::int32_t phase = 0; phase < kPerCell; ++phase) {
-    for (std::int32_t j = 0; j < kNodes; ++j) {
-      const float y = low.y + static_cast<float>(j - kMargin) * kNode_m;
-      std::uint8_t* out = &nodes_[static_cast<std::size_t>((phase * kNodes + j) * kColumns)];
-      for (std::int32_t k = 0; k < kColumns; ++k) {
-        const float x = low.x + static_cast<float>(k * kPerCell + phase - kMargin) * kNode_m;
-        out[k] = static_cast<std::uint8_t>(std::max(guide.room(x, y), 0.0F) / kUnit_m);
-      }
+      for (const Place& p : points) places_.push_back(node_of(p.x, p.y + left, heading));
     }
   }
 }
@@ -142,7 +130,9 @@ void PoseRoom::add_wall(Place at) noexcept {
 }
 
 void PoseRoom::take_surfaces(const Guide& guide, Place low, std::span<const Vec2> walls) noexcept {
-  take_nodes(guide, low);
+  fill_nodes(low, nodes_, [&guide](float x, float y) {
+    return static_cast<std::uint8_t>(std::max(guide.room(x, y), 0.0F) / kUnit_m);
+  });
   for (const Vec2 wall : walls) add_wall({static_cast<float>(wall.x) - low.x, static_cast<float>(wall.y) - low.y});
 }
 
@@ -163,28 +153,17 @@ void PoseRoom::find(const PoseLook& look) const noexcept {
 }
 
 bool PoseRoom::find_unseen(const Guide& guide, Place low, std::uint8_t* unseen) noexcept {
-  std::uint8_t any = 0;
-  for (std::int32_t phase = 0; phase < kPerCell; ++phase) {
-    for (std::int32_t j = 0; j < kNodes; ++j) {
-      const float y = low.y + static_cast<float>(j - kMargin) * kNode_m;
-      std::uint8_t* out = &unseen_[static_cast<std::size_t>((phase * kNodes + j) * kColumns)];
-      for (std::int32_t k = 0; k < kColumns; ++k) {
-        const float x = low.x + static_cast<float>(k * kPerCell + phase - kMargin) * kNode_m;
-        out[k] = guide.is_unseen(x, y) ? 1 : 0;
-        any |= out[k];
-      }
-    }
-  }
-  if (any == 0) return false;
-  std::array<std::array<std::int32_t, 8>, PoseLattice::kHeadings> places{};
-  for (std::int32_t heading = 0; heading < PoseLattice::kHeadings; ++heading) {
-    for (std::size_t k = 0; k < rim_.size(); ++k)
-      places[static_cast<std::size_t>(heading)][k] = place_of_node(turned(rim_[k].x, rim_[k].y, heading));
-  }
+  bool any = false;
+  fill_nodes(low, unseen_, [&](float x, float y) {
+    const bool is_unseen = guide.is_unseen(x, y);
+    any |= is_unseen;
+    return static_cast<std::uint8_t>(is_unseen ? 1 : 0);
+  });
+  if (!any) return false;
   for (std::int32_t j = 0; j < kSide; ++j) {
     for (std::int32_t heading = 0; heading < PoseLattice::kHeadings; ++heading) {
       std::array<std::uint8_t, kSide> eighths{};
-      for (const std::int32_t place : places[static_cast<std::size_t>(heading)]) {
+      for (const std::int32_t place : rim_[static_cast<std::size_t>(heading)]) {
         const std::uint8_t* from = &unseen_[static_cast<std::size_t>(place + j * kPerCell * kColumns)];
         for (std::size_t i = 0; i < eighths.size(); ++i) eighths[i] = static_cast<std::uint8_t>(eighths[i] + from[i]);
       }

@@ -38,17 +38,13 @@ class PoseRoom {
   static constexpr std::int32_t kPerCell = PoseLook::kPerCell, kMargin = PoseLook::kMargin;
   static constexpr std::int32_t kNodes = PoseLook::kNodes, kColumns = PoseLook::kColumns;
 
-  void add_point(float x, float y, std::uint8_t radius);
-  void place_points();
-  void take_nodes(const Guide& guide, Place low) noexcept;
   void add_wall(Place at) noexcept;
   void look_along(const std::int32_t* places, std::int32_t j, std::uint8_t* least) const noexcept;
 
-  std::vector<Place> points_;                 ///< in the body's frame
-  std::vector<std::uint8_t> radius_;          ///< of each, in kUnit_m
-  std::vector<std::int32_t> places_;          ///< as PoseLook has them
-  std::array<Place, 8> rim_;                  ///< corners and the sides' middles
-  std::vector<std::uint8_t> nodes_, unseen_;  ///< every fourth of a row side by side
+  std::vector<std::uint8_t> radius_;                                     ///< of each point, in kUnit_m
+  std::vector<std::int32_t> places_;                                     ///< as PoseLook has them
+  std::array<std::array<std::int32_t, 8>, PoseLattice::kHeadings> rim_;  ///< the same of corners and sides' middles
+  std::vector<std::uint8_t> nodes_, unseen_;                             ///< every fourth of a row side by side
 };
 
 }  // namespace jaywalk::field

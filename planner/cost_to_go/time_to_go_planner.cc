@@ -5,8 +5,6 @@
 #include <cstdlib>
 #include <utility>
 
-#include "planner/cost_to_go/planning_rules.h"
-
 namespace jaywalk::field {
 namespace {
 
@@ -24,92 +22,106 @@ void append_line(Path& path, Vec2 to) noexcept {
 
 const PlannerConfig& checked(const PlannerConfig& config) { return check(config), config; }
 
-}  // namespace
+/// Status and path of a plan, from costs that were just settled for this request. Refers to both.
+class TimeToGoPath {
+ public:
+  TimeToGoPath(const CellGraph& graph, const TimeToGoRequest& request) noexcept
+      : request_(request),
+        window_(request.window),
+        graph_(graph),
+        own_(graph.at(window_.cell_at(request.robot_in_map))),
+        start_(graph.is_free(own_) ? own_ : nearest_to_robot(true)) {}
 
-TimeToGoPath::TimeToGoPath(const TimeToGoField& field, const TimeToGoRequest& request) noexcept
-    : field_(field), request_(request), graph_(field.graph()) {
-  const CellIndex robot = request.window.cell_at(request.robot_in_map);
-  own_ = graph_.at(robot.i, robot.j);
-  start_ = graph_.is_free(own_) ? own_ : nearest_to_robot(true);
-}
-
-/// Within kStartRadius_m the nearest free cell, or the nearest with a way to the goal.
-std::int32_t TimeToGoPath::nearest_to_robot(bool has_way) const noexcept {
-  const Grid grid = request_.window.grid();
-  const CellIndex robot = request_.window.cell_at(request_.robot_in_map);
-  const auto node = [&](std::int32_t c) { return graph_.at(c % grid.side, c / grid.side); };
-  const auto radius = static_cast<std::int32_t>(std::floor(kStartRadius_m / request_.window.cell_m + 0.5));
-  const std::int32_t c = nearest_cell(grid, robot.i, robot.j, radius, [&](std::int32_t at) {
-    return has_way ? graph_.has_way(node(at)) : graph_.is_free(node(at));
-  });
-  return c == kNoCell ? CellGraph::kNone : node(c);
-}
-
-PlanStatus TimeToGoPath::status() const noexcept {
-  if (start_ != CellGraph::kNone) return graph_.has_way(start_) ? PlanStatus::kOk : PlanStatus::kNoPath;
-  return nearest_to_robot(false) == CellGraph::kNone ? PlanStatus::kRobotBlocked : PlanStatus::kNoPath;
-}
-
-bool TimeToGoPath::is_walled_off(Flood& flood) const noexcept {
-  const Window& window = request_.window;
-  if (!window.holds(request_.goal_in_map, 0)) return false;
-  const CellIndex start = graph_.cell_of(graph_.is_free(own_) ? own_ : nearest_to_robot(false));
-  flood.fill(window.grid(), window.grid().at(start.i, start.j), true,
-             [&](std::int32_t c) { return graph_.is_free(graph_.at(c % window.side, c / window.side)); });
-  return flood.touches_border();
-}
-
-void TimeToGoPath::draw(Path& path) const noexcept {
-  path.clear();
-  (void)path.push_back(request_.robot_in_map);
-  if (start_ != own_) append_line(path, middle_of(start_));
-  std::int32_t n = start_;
-  for (std::int32_t next = straight_on(n); next != CellGraph::kNone; next = straight_on(n)) {
-    if (n != start_) append_line(path, middle_of(n));
-    n = next;
+  /// kOk, kNoPath or kRobotBlocked. Costs are a fixed point: kNoPath is proven on the grid, unless the field is not
+  /// certified.
+  [[nodiscard]] PlanStatus status() const noexcept {
+    if (start_ != CellGraph::kNone) return graph_.has_way(start_) ? PlanStatus::kOk : PlanStatus::kNoPath;
+    return nearest_to_robot(false) == CellGraph::kNone ? PlanStatus::kRobotBlocked : PlanStatus::kNoPath;
   }
-  const CellIndex goal = request_.window.cell_at(request_.goal_in_map);
-  const bool arrives = request_.window.holds(request_.goal_in_map, 0) && graph_.is_free(graph_.at(goal.i, goal.j));
-  append_line(path, arrives ? request_.goal_in_map : middle_of(n));  // n is then the goal's cell or beside it
-}
 
-/// The cell that a straight piece of the path leads to from this one; kNone at the path's end.
-std::int32_t TimeToGoPath::straight_on(std::int32_t n) const noexcept {
-  std::int32_t reached = graph_.next(n);
-  for (std::int32_t steps = 1; reached != CellGraph::kNone && steps < kLongestPiece; steps *= 2) {
-    std::int32_t farther = reached;
-    for (std::int32_t k = 0; k < steps; ++k) {
-      const std::int32_t next = graph_.next(farther);
-      if (next == CellGraph::kNone) break;
-      farther = next;
+  /// Of kNoPath: whether the goal is inside the window and what the robot can reach goes on beyond the window.
+  [[nodiscard]] bool is_walled_off(Flood& flood) const noexcept {
+    if (!window_.holds(request_.goal_in_map, 0)) return false;
+    const CellIndex start = graph_.cell_of(graph_.is_free(own_) ? own_ : nearest_to_robot(false));
+    flood.fill(window_.grid(), window_.grid().at(start.i, start.j), true,
+               [&](std::int32_t c) { return graph_.is_free(node(c)); });
+    return flood.touches_border();
+  }
+
+  /// Of kOk: from the robot down the costs, straight on where that costs no more.
+  void draw(Path& path) const noexcept {
+    path.clear();
+    (void)path.push_back(request_.robot_in_map);
+    if (start_ != own_) append_line(path, middle_of(start_));
+    std::int32_t n = start_;
+    for (std::int32_t next = straight_on(n); next != CellGraph::kNone; next = straight_on(n)) {
+      if (n != start_) append_line(path, middle_of(n));
+      n = next;
     }
-    if (farther == reached || !costs_no_more(n, farther)) break;
-    reached = farther;
+    const Vec2 goal = request_.goal_in_map;
+    const bool arrives = window_.holds(goal, 0) && graph_.is_free(graph_.at(window_.cell_at(goal)));
+    append_line(path, arrives ? goal : middle_of(n));  // n is then the goal's cell or beside it
   }
-  return reached;
-}
 
-/// Whether the straight line between two cells costs no more than the way down from one to the other.
-bool TimeToGoPath::costs_no_more(std::int32_t from, std::int32_t to) const noexcept {
-  const CellIndex a = graph_.cell_of(from), b = graph_.cell_of(to);
-  const double di = b.i - a.i, dj = b.j - a.j;
-  const std::int32_t pieces = std::max(std::abs(b.i - a.i), std::abs(b.j - a.j));
-  const double length = std::sqrt(di * di + dj * dj) / pieces * kStraightLength;
-  double cost = 0.0;
-  for (std::int32_t k = 0; k <= pieces; ++k) {
-    const std::uint32_t rate =
-        graph_.rate(graph_.at(a.i + static_cast<std::int32_t>(std::floor(di * k / pieces + 0.5)),
-                              a.j + static_cast<std::int32_t>(std::floor(dj * k / pieces + 0.5))));
-    if (rate == 0) return false;
-    cost += length * rate * (k == 0 || k == pieces ? 1.0 : 2.0);
+ private:
+  /// Within kStartRadius_m the nearest free cell, or the nearest with a way to the goal.
+  [[nodiscard]] std::int32_t nearest_to_robot(bool has_way) const noexcept {
+    const CellIndex robot = window_.cell_at(request_.robot_in_map);
+    const auto radius = static_cast<std::int32_t>(std::floor(kStartRadius_m / window_.cell_m + 0.5));
+    const std::int32_t c = nearest_cell(window_.grid(), robot.i, robot.j, radius, [&](std::int32_t at) {
+      return has_way ? graph_.has_way(node(at)) : graph_.is_free(node(at));
+    });
+    return c == kNoCell ? CellGraph::kNone : node(c);
   }
-  return cost <= kRounding * (graph_.cost(from) - graph_.cost(to));
-}
 
-Vec2 TimeToGoPath::middle_of(std::int32_t n) const noexcept {
-  const CellIndex cell = graph_.cell_of(n);
-  return request_.window.in_map({cell.i + 0.5, cell.j + 0.5});
-}
+  /// The cell that a straight piece of the path leads to from this one; kNone at the path's end.
+  [[nodiscard]] std::int32_t straight_on(std::int32_t n) const noexcept {
+    std::int32_t reached = graph_.next(n);
+    for (std::int32_t steps = 1; reached != CellGraph::kNone && steps < kLongestPiece; steps *= 2) {
+      std::int32_t farther = reached;
+      for (std::int32_t k = 0; k < steps; ++k) {
+        const std::int32_t next = graph_.next(farther);
+        if (next == CellGraph::kNone) break;
+        farther = next;
+      }
+      if (farther == reached || !costs_no_more(n, farther)) break;
+      reached = farther;
+    }
+    return reached;
+  }
+
+  /// Whether the straight line between two cells costs no more than the way down from one to the other.
+  [[nodiscard]] bool costs_no_more(std::int32_t from, std::int32_t to) const noexcept {
+    const CellIndex a = graph_.cell_of(from), b = graph_.cell_of(to);
+    const double di = b.i - a.i, dj = b.j - a.j;
+    const std::int32_t pieces = std::max(std::abs(b.i - a.i), std::abs(b.j - a.j));
+    const double length = std::sqrt(di * di + dj * dj) / pieces * kStraightLength;
+    double cost = 0.0;
+    for (std::int32_t k = 0; k <= pieces; ++k) {
+      const std::uint32_t rate =
+          graph_.rate(graph_.at(a.i + static_cast<std::int32_t>(std::floor(di * k / pieces + 0.5)),
+                                a.j + static_cast<std::int32_t>(std::floor(dj * k / pieces + 0.5))));
+      if (rate == 0) return false;
+      cost += length * rate * (k == 0 || k == pieces ? 1.0 : 2.0);
+    }
+    return cost <= kRounding * (graph_.cost(from) - graph_.cost(to));
+  }
+
+  [[nodiscard]] std::int32_t node(std::int32_t c) const noexcept {
+    return graph_.at(c % window_.side, c / window_.side);
+  }
+  [[nodiscard]] Vec2 middle_of(std::int32_t n) const noexcept {
+    const CellIndex cell = graph_.cell_of(n);
+    return window_.in_map({cell.i + 0.5, cell.j + 0.5});
+  }
+
+  const TimeToGoRequest& request_;
+  const Window& window_;
+  const CellGraph& graph_;
+  std::int32_t own_, start_;  ///< the robot's cell; the one that its way begins in, CellGraph::kNone without one
+};
+
+}  // namespace
 
 TimeToGoPlanner::TimeToGoPlanner(const PlannerConfig& config, std::unique_ptr<CostSettler> device)
     : device_(std::move(device)),
@@ -167,7 +179,7 @@ PlanStatus TimeToGoPlanner::plan_by_times(const PlanRequest& request, Plan& plan
   }
   plan.certified = cells_.is_certified();
   plan.reach = plan.certified ? 1.0F : 0.0F;
-  const TimeToGoPath path(cells_, asked);
+  const TimeToGoPath path(cells_.graph(), asked);
   const bool is_closed = path.status() == PlanStatus::kOk && plan.poses.goal_closed;
   const PlanStatus status = is_closed ? PlanStatus::kNoPath : path.status();
   if (status == PlanStatus::kOk) path.draw(plan.path);

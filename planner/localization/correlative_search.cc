@@ -19,23 +19,6 @@ int worth_of(const ScanReference& reference, CellIndex cell) {
   return evidence < 0 ? 0 : kWallWorth + evidence * (EvidenceMap::kMax - kWallWorth) / EvidenceMap::kMax;
 }
 
-/// Share of the points that lies on walls, each weighed by how sure the map is of the wall.
-double share_on_walls(const MatchSample& sample, const ScanReference& reference, const Pose2& pose) {
-  const Transform2 to_map(pose);
-  int sum = 0, count = 0;
-  for (std::size_t k = 0; k < sample.size(); ++k, ++count) {
-    sum += worth_of(reference, reference.map.cell_at(to_map * sample[k]));
-  }
-  return static_cast<double>(sum) / (EvidenceMap::kMax * std::max(1, count));
-}
-
-/// Poses on a lattice about the prediction.
-struct Window {
-  int cells = 0;     ///< to each side
-  int headings = 0;  ///< to each side
-  double cell_m = 0.0;
-};
-
 /// What the coarse lattice's poses of one heading are worth: whole cells apart, so that each point is turned and put
 /// into its cell once, and then looked up in the cells about it.
 class WorthOfShifts {
@@ -65,43 +48,58 @@ class WorthOfShifts {
   int count_ = 0;
 };
 
-double price(const Eigen::Matrix3d& information, const Eigen::Vector3d& by) {
-  return kThreeSigmaPrice / 9.0 * by.dot(information * by);
-}
+/// The search about one prediction. Offsets from it are in m and rad.
+struct Search {
+  const Pose2& predicted;
+  const Eigen::Matrix3d& information;
+  const MatchSample& sample;
+  const ScanReference& reference;
 
-/// The best offset from the prediction, in steps of a cell and of kCoarseRad.
-Eigen::Vector3d best_cell(const Window& window, const MatchSample& sample, const ScanReference& reference,
-                          const Pose2& predicted, const Eigen::Matrix3d& information) {
-  WorthOfShifts worth_of_shifts;
-  Eigen::Vector3d best;
-  double best_worth = -1e9;
-  for (int h = -window.headings; h <= window.headings; ++h) {
-    worth_of_shifts.add_up(sample, reference, moved(predicted, {0.0, 0.0, h * kCoarseRad}), window.cells);
-    for (int y = -window.cells; y <= window.cells; ++y) {
-      for (int x = -window.cells; x <= window.cells; ++x) {
-        const Eigen::Vector3d by(x * window.cell_m, y * window.cell_m, h * kCoarseRad);
-        const double worth = worth_of_shifts.share(x, y) - price(information, by);
-        if (worth > best_worth) best_worth = worth, best = by;
+  [[nodiscard]] double price(const Eigen::Vector3d& by) const {
+    return kThreeSigmaPrice / 9.0 * by.dot(information * by);
+  }
+
+  /// Share of the points that lies on walls, each weighed by how sure the map is of the wall.
+  [[nodiscard]] double share_on_walls(const Eigen::Vector3d& by) const {
+    const Transform2 to_map(moved(predicted, by));
+    int sum = 0;
+    for (const Vec2& point : sample) sum += worth_of(reference, reference.map.cell_at(to_map * point));
+    return static_cast<double>(sum) / (EvidenceMap::kMax * std::max(1, static_cast<int>(sample.size())));
+  }
+
+  /// The best offset of so many cells and headings (kCoarseRad) to each side.
+  [[nodiscard]] Eigen::Vector3d best_cell(int cells, int headings) const {
+    WorthOfShifts worth_of_shifts;
+    Eigen::Vector3d best;
+    double best_worth = -1e9;
+    const double cell_m = reference.map.cell_m();
+    for (int h = -headings; h <= headings; ++h) {
+      worth_of_shifts.add_up(sample, reference, moved(predicted, {0.0, 0.0, h * kCoarseRad}), cells);
+      for (int y = -cells; y <= cells; ++y) {
+        for (int x = -cells; x <= cells; ++x) {
+          const Eigen::Vector3d by(x * cell_m, y * cell_m, h * kCoarseRad);
+          const double worth = worth_of_shifts.share(x, y) - price(by);
+          if (worth > best_worth) best_worth = worth, best = by;
+        }
       }
     }
+    return best;
   }
-  return best;
-}
 
-/// The best of the offsets half a step to each side of `centre`.
-Eigen::Vector3d best_half_step(const Eigen::Vector3d& centre, const MatchSample& sample, const ScanReference& reference,
-                               const Pose2& predicted, const Eigen::Matrix3d& information) {
-  Eigen::Vector3d best = centre;
-  double best_worth = -1e9;
-  const double half_m = 0.5 * reference.map.cell_m(), half_rad = 0.5 * kCoarseRad;
-  for (int k = 0; k < 27; ++k) {
-    const Eigen::Vector3d by(centre.x() + (k % 3 - 1) * half_m, centre.y() + (k / 3 % 3 - 1) * half_m,
-                             centre.z() + (k / 9 - 1) * half_rad);
-    const double worth = share_on_walls(sample, reference, moved(predicted, by)) - price(information, by);
-    if (worth > best_worth) best_worth = worth, best = by;
+  /// The best of the offsets half a step to each side of `centre`.
+  [[nodiscard]] Eigen::Vector3d best_half_step(const Eigen::Vector3d& centre) const {
+    Eigen::Vector3d best = centre;
+    double best_worth = -1e9;
+    const double half_m = 0.5 * reference.map.cell_m(), half_rad = 0.5 * kCoarseRad;
+    for (int k = 0; k < 27; ++k) {
+      const Eigen::Vector3d by(centre.x() + (k % 3 - 1) * half_m, centre.y() + (k / 3 % 3 - 1) * half_m,
+                               centre.z() + (k / 9 - 1) * half_rad);
+      const double worth = share_on_walls(by) - price(by);
+      if (worth > best_worth) best_worth = worth, best = by;
+    }
+    return best;
   }
-  return best;
-}
+};
 
 int steps(double variance, double most, double step) {
   return static_cast<int>(std::ceil(std::min(kWindowSigmas * std::sqrt(variance), most) / step));
@@ -118,12 +116,10 @@ Pose2 correlative_search(const PoseBelief& predicted, const Eigen::Matrix3d& inf
                          const ScanReference& reference) noexcept {
   const Eigen::Matrix3d& p = predicted.covariance;
   const double cell_m = reference.map.cell_m();
-  const Window window{.cells = steps(std::max(p(0, 0), p(1, 1)), kMostCells * cell_m, cell_m),
-                      .headings = steps(p(2, 2), kMostWindowRad, kCoarseRad),
-                      .cell_m = cell_m};
-  const Eigen::Vector3d valley = best_cell(window, sample, reference, predicted.map_from_robot, information);
-  return moved(predicted.map_from_robot,
-               best_half_step(valley, sample, reference, predicted.map_from_robot, information));
+  const Search search{predicted.map_from_robot, information, sample, reference};
+  const Eigen::Vector3d valley = search.best_cell(steps(std::max(p(0, 0), p(1, 1)), kMostCells * cell_m, cell_m),
+                                                  steps(p(2, 2), kMostWindowRad, kCoarseRad));
+  return moved(predicted.map_from_robot, search.best_half_step(valley));
 }
 
 Submap::Submap() : map_(kSideCells, kCellM, {}), sum_at_(static_cast<std::size_t>(kSideCells) * kSideCells, 0) {}

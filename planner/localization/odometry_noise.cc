@@ -1,8 +1,5 @@
 #include "planner/localization/odometry_noise.h"
 
-#include <algorithm>
-#include <cmath>
-
 namespace jaywalk {
 namespace {
 // Unknown wheels: 5 cm and 2 degrees after a metre, 15 cm and 4 degrees after a turn of one radian (a laser that is not
@@ -43,15 +40,6 @@ OdometryNoise noise_of_unknown_wheels(const ArcStep& step) noexcept {
           kHeadingVarPerM * metres + kHeadingVarPerRad * radians};
 }
 
-void OdometryNoiseEstimator::Share::moved(double explained_by) noexcept {
-  worst = std::max(worst, explained_by);
-  believed = std::clamp(std::max(believed, worst), kLeastShare, 1.0);
-}
-
-double OdometryNoiseEstimator::Share::beside(const Share& other) const noexcept {
-  return std::sqrt(believed * std::max(believed, other.believed));
-}
-
 void OdometryNoiseEstimator::Share::end_window() noexcept {
   believed = std::clamp(believed + kWindowGain * (worst - believed), kLeastShare, 1.0);
 }
@@ -81,11 +69,6 @@ void OdometryNoiseEstimator::begin() noexcept {
   turned_ = metres_.worst = turns_.worst = 0.0;
 }
 
-void WheelRadiusBias::drove(const ArcStep& step) noexcept {
-  since_.distance_m += step.distance_m;
-  since_.turn_rad += step.turn_rad;
-}
-
 void WheelRadiusBias::corrected(double turn_rad) noexcept {
   const double metres = since_.distance_m, driven = way(since_);
   since_ = {};
@@ -98,29 +81,30 @@ void WheelRadiusBias::corrected(double turn_rad) noexcept {
   variance_ -= gain * metres * variance_;
 }
 
-MatchResult SlipDetector::match(const ScanPoints& scan, const EvidenceMap& still,
+MatchResult SlipDetector::match(const MatchSample& sample, const EvidenceMap& still,
                                 const OdometryPrior& wheels) noexcept {
-  MatchResult found = best(scan, still, wheels);
+  MatchResult found = best(sample, still, wheels);
   found.matched = found.matched && finite(found.belief.map_from_robot);
   if (found.matched) usual_fit_ += kFitGain * (found.fit - usual_fit_);
   contradicted_ = found.contradicted;
   return found;
 }
 
-MatchResult SlipDetector::best(const ScanPoints& scan, const EvidenceMap& still, const OdometryPrior& wheels) noexcept {
-  const MatchResult found = by_wheels(scan, still, wheels);
+MatchResult SlipDetector::best(const MatchSample& sample, const EvidenceMap& still,
+                               const OdometryPrior& wheels) const noexcept {
+  const MatchResult found = by_wheels(sample, still, wheels);
   const bool fits = found.matched ? found.fit >= usual_fit_ - kDoubtfulFit : !found.contradicted;
   if (fits || wheels.coasted.covariance(2, 2) > kMostCoastedVar) return found;
-  return better(found, matcher_.match(scan, {still}, wheels.coasted), kMuchBetterFit);
+  return better(found, match_sample(sample, {still}, wheels.coasted), kMuchBetterFit);
 }
 
-MatchResult SlipDetector::by_wheels(const ScanPoints& scan, const EvidenceMap& still,
-                                    const OdometryPrior& wheels) noexcept {
+MatchResult SlipDetector::by_wheels(const MatchSample& sample, const EvidenceMap& still,
+                                    const OdometryPrior& wheels) const noexcept {
   const Pose2& predicted = wheels.map_from_robot;
-  if (contradicted_ || !wheels.learnt) return matcher_.match(scan, {still}, {predicted, wheels.if_slipped});
-  const MatchResult found = matcher_.match(scan, {still}, {predicted, wheels.covariance});
+  if (contradicted_ || !wheels.learnt) return match_sample(sample, {still}, {predicted, wheels.if_slipped});
+  const MatchResult found = match_sample(sample, {still}, {predicted, wheels.covariance});
   if (!doubtful(found, wheels)) return found;
-  return better(found, matcher_.match(scan, {still}, {predicted, wheels.if_slipped}), kBetterFit);
+  return better(found, match_sample(sample, {still}, {predicted, wheels.if_slipped}), kBetterFit);
 }
 
 const MatchResult& SlipDetector::better(const MatchResult& found, const MatchResult& other, double by) const noexcept {

@@ -1,5 +1,8 @@
 #pragma once
 // Errors of the wheels: noise and radius bias as matches showed them, and slip.
+#include <algorithm>
+#include <cmath>
+
 #include "hal/types/geometry.h"
 #include "planner/localization/odometry.h"
 #include "planner/localization/scan_matcher.h"
@@ -43,8 +46,13 @@ class OdometryNoiseEstimator {
     double worst = 0.0;  ///< that would explain what moved in this window so far
 
     /// What may be believed of it where `other` is so bad.
-    [[nodiscard]] double beside(const Share& other) const noexcept;
-    void moved(double explained_by) noexcept;
+    [[nodiscard]] double beside(const Share& other) const noexcept {
+      return std::sqrt(believed * std::max(believed, other.believed));
+    }
+    void moved(double explained_by) noexcept {
+      worst = std::max(worst, explained_by);
+      believed = std::clamp(std::max(believed, worst), kLeastShare, 1.0);
+    }
     void end_window() noexcept;
   };
   void begin() noexcept;
@@ -63,7 +71,10 @@ class WheelRadiusBias {
   /// rad a metre, to be added to what the wheels say; at most kMost to either side.
   [[nodiscard]] double turn_per_m() const { return turn_per_m_; }
 
-  void drove(const ArcStep& step) noexcept;
+  void drove(const ArcStep& step) noexcept {
+    since_.distance_m += step.distance_m;
+    since_.turn_rad += step.turn_rad;
+  }
   /// A match turned the robot by `turn_rad` after what it drove since the last. What no drift explains, as of a wheel
   /// that spins in the air, is none.
   void corrected(double turn_rad) noexcept;
@@ -94,20 +105,19 @@ struct OdometryPrior {
 /// turns the robot by more than any doubt of what it says. Thread: the loop's.
 class SlipDetector {
  public:
-  [[nodiscard]] MatchResult match(const ScanPoints& scan, const EvidenceMap& still,
+  [[nodiscard]] MatchResult match(const MatchSample& sample, const EvidenceMap& still,
                                   const OdometryPrior& wheels) noexcept;
 
  private:
-  [[nodiscard]] MatchResult best(const ScanPoints& scan, const EvidenceMap& still,
-                                 const OdometryPrior& wheels) noexcept;
-  [[nodiscard]] MatchResult by_wheels(const ScanPoints& scan, const EvidenceMap& still,
-                                      const OdometryPrior& wheels) noexcept;
+  [[nodiscard]] MatchResult best(const MatchSample& sample, const EvidenceMap& still,
+                                 const OdometryPrior& wheels) const noexcept;
+  [[nodiscard]] MatchResult by_wheels(const MatchSample& sample, const EvidenceMap& still,
+                                      const OdometryPrior& wheels) const noexcept;
   /// `other` where it fits better `by` so much than what was found, or, where nothing was, nearly as matches did
   /// lately.
   [[nodiscard]] const MatchResult& better(const MatchResult& found, const MatchResult& other, double by) const noexcept;
   [[nodiscard]] bool doubtful(const MatchResult& found, const OdometryPrior& wheels) const noexcept;
 
-  ScanMatcher matcher_;
   bool contradicted_ = false;  ///< the last scan was
   double usual_fit_ = 0.0;     ///< running mean of the matches'
 };

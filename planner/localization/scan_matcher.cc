@@ -79,28 +79,14 @@ bool line_through(const Surfaces& surfaces, Line& out) {
   return true;
 }
 
-/// Leaves out what was seen from behind the line. True where something was.
-bool drop_other_face(Surfaces& surfaces, Vec2 normal_to_viewer) {
-  std::size_t kept = 0;
-  for (const Surface& s : surfaces) {
-    if (dot(normal_to_viewer, s.to_laser) > -kFromBehind) surfaces[kept++] = s;
-  }
-  const bool dropped = kept < surfaces.size();
-  surfaces.truncate(kept);
-  return dropped;
+/// Removes what `is_unwanted`; the order stays.
+template <class Items, class IsUnwanted>
+void drop(Items& items, const IsUnwanted& is_unwanted) {
+  items.truncate(static_cast<std::size_t>(std::remove_if(items.begin(), items.end(), is_unwanted) - items.begin()));
 }
 
 constexpr double kBesideM = 0.2;         // a swinging arm or leg, and where the track may be off
 constexpr double kLongestAheadS = 0.25;  // a track that is older than two scans says little of where it is
-
-void leave_out(Vec2 centre_in_robot, double radius_m, ScanPoints& points) {
-  std::size_t kept = 0;
-  for (std::size_t k = 0; k < points.size(); ++k) {
-    const Vec2 off = points[k].in_robot - centre_in_robot;
-    if (dot(off, off) > radius_m * radius_m) points[kept++] = points[k];
-  }
-  points.truncate(kept);
-}
 
 // Among people or at the edge of its reach a laser sees no more of walls than this. By trial: 25 loses 13 of 56 drives
 // with a laser of 5.6 m, 15 loses 12, 10 loses 11 (decision localization).
@@ -108,40 +94,6 @@ constexpr std::uint32_t kFewestOnWalls = 15;
 constexpr double kLeastShare = 0.4;  // of the points that do not lie in unknown space
 constexpr int kMostIterations = 10;
 
-}  // namespace
-
-bool line_feature_near(const EvidenceMap& still, Vec2 p, Vec2 viewer, LineFeature& out) noexcept {
-  CellIndex nearest;
-  if (!anchor_near(still, p, nearest)) return false;
-  const Vec2 anchor = still.surface(nearest);
-  Surfaces surfaces;
-  surfaces_about(still, anchor, surfaces);
-  Line line;
-  if (!line_through(surfaces, line)) return false;
-  const double side = dot(line.normal, viewer - anchor) < 0.0 ? -1.0 : 1.0;
-  if (drop_other_face(surfaces, line.normal * side) && !line_through(surfaces, line)) return false;
-  if (line.across > kThinWallM * kThinWallM || line.along < 4.0 * line.across) return false;
-  out = {anchor + line.mean, line.normal, line.across + kPointStdM * kPointStdM, still.stands(nearest)};
-  return true;
-}
-
-void mask_moving_tracks(std::span<const Track> moving, const Pose2& map_from_robot, Time stamp,
-                        ScanPoints& points) noexcept {
-  const Pose2 robot_from_map = inverse(map_from_robot);
-  for (const Track& walker : moving) {
-    const double ahead_s = std::clamp(to_seconds(stamp - walker.stamp), 0.0, kLongestAheadS);
-    leave_out(robot_from_map * (walker.position_in_map + walker.velocity_in_map * ahead_s), walker.radius_m + kBesideM,
-              points);
-  }
-}
-
-void sample_of(const ScanPoints& scan, MatchSample& out) noexcept {
-  out.clear();
-  const std::size_t stride = (scan.size() + kMostMatchPoints - 1) / kMostMatchPoints;
-  for (std::size_t k = 0; k < scan.size(); k += stride) (void)out.push_back(scan[k].in_robot);
-}
-
-namespace {
 struct NormalEquations {
   Eigen::Matrix3d information;
   Eigen::Vector3d gradient;
@@ -172,23 +124,44 @@ NormalEquations normal_equations(const MatchSample& sample, const ScanReference&
   return sum;
 }
 
-/// Points of which the map knows what is there.
-std::uint32_t known(const NormalEquations& sum) { return sum.on_walls + sum.in_the_open; }
-
-bool enough(const NormalEquations& sum) {
-  return sum.on_walls >= kFewestOnWalls && sum.on_walls >= kLeastShare * known(sum);
-}
-
-bool contradicted(const NormalEquations& sum) {
-  return kLeastShare * known(sum) >= kFewestOnWalls && sum.on_walls < kLeastShare * known(sum);
-}
-
 }  // namespace
 
-MatchResult ScanMatcher::match(const ScanPoints& scan, const ScanReference& reference,
-                               const PoseBelief& predicted) noexcept {
-  sample_of(scan, sample_);
-  return match_sample(sample_, reference, predicted);
+bool line_feature_near(const EvidenceMap& still, Vec2 p, Vec2 viewer, LineFeature& out) noexcept {
+  CellIndex nearest;
+  if (!anchor_near(still, p, nearest)) return false;
+  const Vec2 anchor = still.surface(nearest);
+  Surfaces surfaces;
+  surfaces_about(still, anchor, surfaces);
+  Line line;
+  if (!line_through(surfaces, line)) return false;
+  const Vec2 to_viewer = line.normal * (dot(line.normal, viewer - anchor) < 0.0 ? -1.0 : 1.0);
+  const std::size_t all = surfaces.size();
+  drop(surfaces, [&](const Surface& s) { return !(dot(to_viewer, s.to_laser) > -kFromBehind); });
+  if (surfaces.size() < all && !line_through(surfaces, line)) return false;
+  if (line.across > kThinWallM * kThinWallM || line.along < 4.0 * line.across) return false;
+  out = {anchor + line.mean, line.normal, line.across + kPointStdM * kPointStdM, still.stands(nearest)};
+  return true;
+}
+
+void mask_moving_tracks(std::span<const Track> moving, const Pose2& map_from_robot, Time stamp,
+                        ScanPoints& points) noexcept {
+  const Pose2 robot_from_map = inverse(map_from_robot);
+  for (const Track& walker : moving) {
+    const double ahead_s = std::clamp(to_seconds(stamp - walker.stamp), 0.0, kLongestAheadS);
+    const Vec2 centre = robot_from_map * (walker.position_in_map + walker.velocity_in_map * ahead_s);
+    const double radius_m = walker.radius_m + kBesideM;
+    drop(points, [&](const ScanPoint& point) {
+      const Vec2 off = point.in_robot - centre;
+      return !(dot(off, off) > radius_m * radius_m);
+    });
+  }
+}
+
+MatchSample sample_of(const ScanPoints& scan) noexcept {
+  MatchSample out;
+  const std::size_t stride = (scan.size() + kMostMatchPoints - 1) / kMostMatchPoints;
+  for (std::size_t k = 0; k < scan.size(); k += stride) (void)out.push_back(scan[k].in_robot);
+  return out;
 }
 
 MatchResult match_sample(const MatchSample& sample, const ScanReference& reference,
@@ -202,9 +175,11 @@ MatchResult match_sample(const MatchSample& sample, const ScanReference& referen
   for (int k = 0; k < kMostIterations; ++k) {
     const NormalEquations walls = normal_equations(sample, reference, pose);
     result.known_for_long = walls.on_standing >= kFewestOnWalls;
-    result.contradicted = contradicted(walls);
-    if (!enough(walls)) return result;
-    result.fit = walls.fit / known(walls);
+    const std::uint32_t known = walls.on_walls + walls.in_the_open;
+    const double least = kLeastShare * known;
+    result.contradicted = least >= kFewestOnWalls && walls.on_walls < least;
+    if (walls.on_walls < kFewestOnWalls || walls.on_walls < least) return result;
+    result.fit = walls.fit / known;
     information = prior + walls.information;
     const Eigen::Vector3d gradient = walls.gradient + prior * offset(predicted.map_from_robot, pose);
     const Eigen::Vector3d step = information.ldlt().solve(gradient);

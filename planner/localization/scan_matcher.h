@@ -39,7 +39,7 @@ struct MatchResult {
 };
 
 /// Every n-th of the scan's points, kMostMatchPoints at most.
-void sample_of(const ScanPoints& scan, MatchSample& out) noexcept;
+[[nodiscard]] MatchSample sample_of(const ScanPoints& scan) noexcept;
 
 /// Matches points in the robot's frame, in two steps. A search over a small window of poses (correlative_search) counts
 /// how much of the scan falls on occupied cells: it finds the right valley. Then Gauss and Newton, from there: each
@@ -48,15 +48,5 @@ void sample_of(const ScanPoints& scan, MatchSample& out) noexcept;
 /// where the map knows free space (people) draw nothing.
 [[nodiscard]] MatchResult match_sample(const MatchSample& sample, const ScanReference& reference,
                                        const PoseBelief& predicted) noexcept;
-
-/// Thread: the loop's. No allocation after construction.
-class ScanMatcher {
- public:
-  [[nodiscard]] MatchResult match(const ScanPoints& scan, const ScanReference& reference,
-                                  const PoseBelief& predicted) noexcept;
-
- private:
-  MatchSample sample_;
-};
 
 }  // namespace jaywalk

@@ -13,14 +13,13 @@ struct CellIndex {
   constexpr bool operator==(const CellIndex&) const = default;
 };
 
-/// A square window of the world that rolls with the robot, stored as a torus: moving the window
-/// costs only the cells that enter it. It remembers everything inside; what leaves is forgotten.
+/// A square window of the world that rolls with the robot, stored as a torus: moving it costs only the cells that
+/// enter. What leaves is forgotten.
 ///
-/// Evidence is log odds in units of 1/16 nat: positive speaks for occupied, 0 is unknown, and
-/// both ends saturate so that the map can change its mind within a few scans. A cell that holds a
-/// surface also remembers where in it the laser's points fall, to 1/128 of half a cell: matching a
-/// scan needs better than a cell. It remembers from where the surface was seen: a wall has two faces. And for how long:
-/// something that walks slowly leaves a new surface in every cell, a wall an old one.
+/// Evidence is log odds in units of 1/16 nat: positive speaks for occupied, 0 is unknown, and both ends saturate so
+/// that the map can change its mind within a few scans. A cell that holds a surface also remembers where in it the
+/// laser's points fall, to 1/128 of half a cell, from where it was seen (a wall has two faces), and for how long: a
+/// slow pedestrian leaves a new surface in every cell, a wall an old one.
 /// Memory: a little more than 6 * side * side bytes, taken in the constructor. Not thread-safe.
 class EvidenceMap {
  public:
@@ -88,8 +87,7 @@ class EvidenceMap {
   [[nodiscard]] Vec2 to_laser(CellIndex cell) const;
   /// As if the cell had never been seen; nothing happens outside the window.
   void forget(CellIndex cell) noexcept;
-  /// Rolls the window so that it is centred within a quarter side of `centre_in_map`; a no-op while
-  /// that holds already. Cells that enter are unknown.
+  /// Rolls the window, unless it is centred within a quarter side of `centre_in_map`. Cells that enter are unknown.
   void roll_to(Vec2 centre_in_map) noexcept;
 
   static constexpr int kMin = -64, kMax = 64;
@@ -101,8 +99,7 @@ class EvidenceMap {
   static constexpr double kSeenUnitsPerS = 250.0;  ///< fits a byte; a scan at 40 Hz is 6 of them, not 6.25
 
   /// Rounded down and held within kFarthest: a number that no integer holds becomes another one on each processor.
-  /// Not std::floor, which is a call where the compiler may not count on SSE 4.1: this is asked ten thousand times a
-  /// scan.
+  /// Not std::floor, which is a call without SSE 4.1: this is asked ten thousand times a scan.
   static std::int32_t whole_cells(double cells) {
     constexpr double kFarthest = 5e8;  // the sum of two differences of such still is an integer
     const double not_below = cells > -kFarthest ? cells : -kFarthest,

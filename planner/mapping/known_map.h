@@ -47,8 +47,7 @@ struct KnownMap {
 /// for long. What lies outside the map's window is left out, and what lay in it when its lowest cell was `before`.
 void enter(const KnownMap& known, EvidenceMap& map, std::optional<CellIndex> before) noexcept;
 
-/// View of a KeepOutField, in plain values. Empty (no nodes): the robot may be anywhere. No part of perception,
-/// localisation or safety looks at it.
+/// View of a KeepOutField, in plain values, for planning alone. Empty (no nodes): the robot may be anywhere.
 struct KeepOut {
   static constexpr float kFar_m = 2.0F;
 

@@ -17,9 +17,8 @@ constexpr int kObserved = -1;  // the smallest evidence that is not unknown (0) 
 
 constexpr double kNearestM = 1e-6;  // nothing is hit nearer: no division by 0
 
-/// So near before its end a beam frees no cell that was hit: ranges scatter, and were the near half of a wall's hits
-/// wiped out by the beams of the far half, the map would hold walls farther off than they are and the robot run ahead
-/// of itself.
+/// So near before its end a beam frees no cell that was hit: ranges scatter, and were a wall's near hits wiped out by
+/// the beams of its far ones, the map would hold walls farther off than they are.
 constexpr std::int32_t kNoiseCells = 2;
 
 /// One axis of a walk through the cells that a line crosses (Amanatides and Woo 1987).

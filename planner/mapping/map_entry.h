@@ -16,14 +16,12 @@ enum class Ground : std::uint8_t {
   kFree,     ///< beams passed there, three or more in a row (EvidenceMap::seen_free)
 };
 
-/// The scan's points in the map, and the ground that each stands on.
 struct PointsInMap {
   std::array<Vec2, kMaxBeams> position;
   std::array<Ground, kMaxBeams> ground;
 };
 
-/// So far about where the map remembers a surface what is seen from `range_m` away is still it, m: points scatter by
-/// noise and by errors of the pose.
+/// Scatter of a surface's points about where the map has it, by noise and errors of the pose, seen from `range_m`, m.
 [[nodiscard]] double wall_noise_m(double range_m) noexcept;
 
 /// The ground under a point that was seen from `range_m` away.
@@ -46,8 +44,7 @@ class MapEntry {
  public:
   explicit MapEntry(const EvidenceMap& map);
 
-  /// `points_in_map[k]` and `entries[k]` belong to point k of `count`; all free the cells before them. `step_s`: since
-  /// the scan before.
+  /// The first `count` of `points_in_map` and `entries`; all free the cells before them. `step_s`: since the last scan.
   void enter(EvidenceMap& map, Vec2 laser_in_map, const std::array<Vec2, kMaxBeams>& points_in_map,
              const Entries& entries, std::size_t count, double step_s = 0.0) noexcept;
 

@@ -51,14 +51,10 @@ Window placed(const Window& now, Vec2 robot, Vec2 goal) {
   return {{low_along(rx, gx, now.side), low_along(ry, gy, now.side)}, now.side, now.cell_m};
 }
 
-Window doubled(const Window& now) {
-  return {{now.low.i - now.side / 2, now.low.j - now.side / 2}, 2 * now.side, now.cell_m};
-}
-
 void GrowingWindow::note_walled_off(bool walled_off) noexcept {
   walled_off_ = walled_off ? walled_off_ + 1 : 0;
   if (walled_off_ < kPatience || !can_grow()) return;
-  now_ = doubled(now_);
+  now_ = {{now_.low.i - now_.side / 2, now_.low.j - now_.side / 2}, 2 * now_.side, now_.cell_m};
   walled_off_ = 0;
 }
 

@@ -99,8 +99,7 @@ struct Window {
   [[nodiscard]] bool holds(Vec2 p_in_map, std::int32_t margin) const;
 };
 
-/// Cells by which a window moves.
-inline constexpr std::int32_t kWindowBlock = 16;
+inline constexpr std::int32_t kWindowBlock = 16;  ///< cells by which a window moves
 /// Room (cells) round the box of robot and goal that a window of that size needs: 1.5 m at 0.1 m.
 inline constexpr std::int32_t kWindowMargin = 15;
 /// A window that does not hold the goal moves on when the robot is this near its border: 3 m.
@@ -110,11 +109,8 @@ inline constexpr std::int32_t kWindowRollMargin = 30;
 /// fit, else one that holds the robot and looks towards the goal.
 [[nodiscard]] Window placed(const Window& now, Vec2 robot_in_map, Vec2 goal_in_map);
 
-/// The same centre, twice the side.
-[[nodiscard]] Window doubled(const Window& now);
-
-/// Submissions in a row that walls alone keep from the goal before the window doubles: a second at 15 scans a
-/// second. A doorway that noise closes for a scan must not quadruple the work for good.
+/// Submissions in a row, a second at 15 Hz, that walls alone keep from the goal before the window doubles: a doorway
+/// that noise closes for a scan must not quadruple the work for good.
 inline constexpr int kPatience = 15;
 
 /// A planner's window: it follows robot and goal, and doubles where a way round may lie outside it.
@@ -125,8 +121,8 @@ class GrowingWindow {
   [[nodiscard]] const Window& now() const noexcept { return now_; }
   void place(Vec2 robot_in_map, Vec2 goal_in_map) noexcept { now_ = placed(now_, robot_in_map, goal_in_map); }
   [[nodiscard]] bool can_grow() const noexcept { return 2 * now_.side <= max_side_; }
-  /// After each plan: whether walls alone keep the robot from a goal inside the window, and the robot can leave the
-  /// window. Doubles it, for the next plan, when that was so kPatience times in a row.
+  /// After each plan: whether walls alone keep the robot, which can leave the window, from a goal inside. Doubles it
+  /// about its middle when that was so kPatience times in a row.
   void note_walled_off(bool walled_off) noexcept;
 
  private:

@@ -14,15 +14,12 @@ constexpr float kMostlyOutward = 0.5F;   // Watch's
 constexpr int kHalvings = 8;             // of the turn looked for: to 0.005 rad/s
 constexpr double kFieldEdge_rad = 0.01;  // a beam's share at the rim of the field of view
 
-bool is_watched(const LaserModel& laser, Vec2 in_robot) {
-  const Vec2 p = inverse(laser.robot_from_laser) * in_robot;
-  return laser.fov_rad >= 2.0 * kPi - 2.0 * kFieldEdge_rad ||
-         std::fabs(std::atan2(p.y, p.x)) < 0.5 * laser.fov_rad - kFieldEdge_rad;
-}
-
 bool is_watched(const OfEach<LaserModel>& lasers, Vec2 in_robot) {
   for (const LaserModel& laser : lasers) {
-    if (is_watched(laser, in_robot)) return true;
+    const Vec2 p = inverse(laser.robot_from_laser) * in_robot;
+    if (laser.fov_rad >= 2.0 * kPi - 2.0 * kFieldEdge_rad ||
+        std::fabs(std::atan2(p.y, p.x)) < 0.5 * laser.fov_rad - kFieldEdge_rad)
+      return true;
   }
   return false;
 }

@@ -61,7 +61,7 @@ void GoalRollouts::observe(const World& world, const Intent& intent) noexcept {
 
 bool GoalRollouts::is_there(const World& world) const noexcept {
   if (setup_.constant_speed) return false;
-  const RobotState now = state_of(world, sent_accel());
+  const RobotState now = state_of(world, accel_);
   const auto rests_within = [&](double share) {
     const auto within_m = static_cast<float>(share * setup_.goal_tolerance_m);
     return rests_near(now, static_cast<float>(world.input.goal_in_map.x), static_cast<float>(world.input.goal_in_map.y),
@@ -96,10 +96,13 @@ void GoalRollouts::choose(const World& world, const Guide& guide) noexcept {
   Cost to_beat = best_cost_;
   decision_.went_on = holds(world.now);
   if (decision_.went_on) {
-    decision_.last = best_ = shifted(decided(), static_cast<float>(to_seconds(world.now - decision_.at)));
+    decision_.last = best_ = rest_of_decision(world.now);
     to_beat = best_cost_ = trajectory_cost(situation, best_, 1e9F);
   }
-  search(situation);
+  try_all(situation, setup_.constant_speed, decision_.number, best_, trial_, [&](const Trajectory& trial) {
+    const Cost cost = trajectory_cost(situation, trial, best_cost_.is_safe() ? best_cost_.total() : 1e9F);
+    if (cost.is_better_than(best_cost_)) best_ = trial, best_cost_ = cost;
+  });
   if (decision_.went_on && !best_cost_.is_better_than(to_beat, kLeastGain)) best_ = decision_.last;
   decision_.trajectory = best_;
   decision_.cost = trajectory_cost(situation, best_, 1e9F, decision_.driven.data());
@@ -124,13 +127,6 @@ Situation GoalRollouts::situation(const Guide& guide, const PoseGuide& poses) co
           decision_.known_behind};
 }
 
-void GoalRollouts::search(const Situation& situation) noexcept {
-  try_all(situation, setup_.constant_speed, decision_.number, best_, trial_, [&](const Trajectory& trial) {
-    const Cost cost = trajectory_cost(situation, trial, best_cost_.is_safe() ? best_cost_.total() : 1e9F);
-    if (cost.is_better_than(best_cost_)) best_ = trial, best_cost_ = cost;
-  });
-}
-
 std::vector<Alternative> GoalRollouts::alternatives(const Plan& plan) const {
   const Situation situation = this->situation(plan.guide, plan.poses);
   std::vector<Alternative> all;
@@ -152,12 +148,12 @@ std::vector<Alternative> GoalRollouts::alternatives(const Plan& plan) const {
 /// As many seconds as waiting would take to bring about a conflict: the busier the place, the less it gains.
 float GoalRollouts::conflict_price() const noexcept {
   float walked_mps = 0.0F;
-  for (const MoverBelief& b : memory().beliefs()) {
+  for (const MoverBelief& b : memory_.beliefs()) {
     const float dx = b.x - decision_.start.x, dy = b.y - decision_.start.y;
     const bool walks = b.is_pedestrian && !b.has_stood();
     if (walks && dx * dx + dy * dy < price::kAboutM * price::kAboutM) walked_mps += b.usual_mps;
   }
-  walked_mps += 0.5F * static_cast<float>(memory().hidden().size()) / kFutures * memory().turning().usual_mps;
+  walked_mps += 0.5F * static_cast<float>(memory_.hidden().size()) / kFutures * memory_.turning().usual_mps;
   const float met_hz = walked_mps * price::kMetWidthM / (cell::kPiF * price::kAboutM * price::kAboutM);
   return std::clamp(1.0F / std::max(met_hz, 1e-3F), price::kLeastConflict, price::kConflict);
 }
@@ -178,8 +174,8 @@ void GoalRollouts::note_progress(const Situation& situation, Time now) noexcept 
     stall_.wound_rad = 0.0F;
     stalled_since_ = now;
   }
-  const std::span<const MoverBelief> beliefs = memory().beliefs();
-  stall_.is_alone = memory().hidden().empty() &&
+  const std::span<const MoverBelief> beliefs = memory_.beliefs();
+  stall_.is_alone = memory_.hidden().empty() &&
                     std::all_of(beliefs.begin(), beliefs.end(), [](const MoverBelief& b) { return b.newcomer; });
   stall_.for_s = static_cast<float>(to_seconds(now - stalled_since_));
 }

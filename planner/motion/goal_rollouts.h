@@ -1,7 +1,6 @@
 #pragma once
 #include <vector>
 
-#include "planner/motion/proposals.h"
 #include "planner/motion/rollout_motion.h"
 
 namespace jaywalk::motion {
@@ -37,7 +36,6 @@ class GoalRollouts final : public RolloutMotion {
 
   [[nodiscard]] Situation situation(const Guide& guide, const PoseGuide& poses) const noexcept;
   [[nodiscard]] float conflict_price() const noexcept;
-  void search(const Situation& situation) noexcept;
   void note_progress(const Situation& situation, Time now) noexcept;
   void note_turning(const RobotState& now, float since_s) noexcept;
   [[nodiscard]] bool is_there(const World& world) const noexcept;

@@ -79,8 +79,6 @@ class Motion {
   [[nodiscard]] virtual const GoalRollouts* rollouts() const noexcept { return nullptr; }
 };
 
-// Makes the one Motion that a control loop holds.
-
 struct MotionSetup {
   RobotModel model;
   bool constant_speed = false;  ///< one speed from start to goal, never stopping
@@ -89,8 +87,6 @@ struct MotionSetup {
   double goal_tolerance_m = 0.3;
   double tick_s = 0.02;
   std::shared_ptr<const KeepOutField> keep_out = {};  ///< null: no such zones
-
-  [[nodiscard]] KeepOut keep_out_zones() const noexcept { return keep_out ? keep_out->view() : KeepOut{}; }
 };
 
 /// Throws nothing but std::bad_alloc.

@@ -1,8 +1,8 @@
 #include "planner/motion/proposals.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <iterator>
 
 #include "planner/cell/draws.h"
 #include "planner/cell/exp_log.h"
@@ -13,22 +13,22 @@ namespace {
 
 constexpr std::uint32_t kProposalPurpose = 3;  ///< of the draws
 
-constexpr std::array<float, 7> kFollowShares{1.0F, 0.833F, 0.667F, 0.5F, 0.333F, 0.167F, 0.0F};  ///< of full speed
+constexpr float kFollowShares[] = {1.0F, 0.833F, 0.667F, 0.5F, 0.333F, 0.167F, 0.0F};  ///< of full speed
 constexpr int kPauses = 4;  ///< waits of 0.8 to 3.2 s before it goes, and as many stops
-constexpr std::array<float, 11> kTurns{0.0F, -0.15F, 0.15F, -0.3F, 0.3F, -0.5F, 0.5F, -0.75F, 0.75F, -1.0F, 1.0F};
-constexpr std::array<float, 4> kForward{1.0F, 0.667F, 0.333F, 0.0F};  ///< of full speed
-constexpr std::array<float, 2> kBack{0.5F, 1.0F};                     ///< of the speed backward
-constexpr std::array<int, 2> kBends{7, 14};                           ///< steps of an arc before it follows
-constexpr int kTurnCount = static_cast<int>(kTurns.size());
+constexpr float kTurns[] = {0.0F, -0.15F, 0.15F, -0.3F, 0.3F, -0.5F, 0.5F, -0.75F, 0.75F, -1.0F, 1.0F};
+constexpr float kForward[] = {1.0F, 0.667F, 0.333F, 0.0F};  ///< of full speed
+constexpr float kBack[] = {0.5F, 1.0F};                     ///< of the speed backward
+constexpr int kBends[] = {7, 14};                           ///< steps of an arc before it follows
+constexpr int kTurnCount = std::ssize(kTurns);
 
-constexpr int kFollows = static_cast<int>(kFollowShares.size());
-constexpr int kArcs = static_cast<int>(kForward.size() + kBack.size()) * kTurnCount;
-constexpr int kBentForward = static_cast<int>(kForward.size() * kBends.size()) * kTurnCount;
-constexpr int kBentBack = static_cast<int>(kBack.size()) * kTurnCount;
-constexpr int kStraights = 12;                                       ///< directions, all round
-constexpr std::array<int, 6> kBrakesFor{kSteps, 8, 16, 24, 32, 40};  ///< steps from now, before it follows
-constexpr std::array<int, 3> kBrakesAfter{3, 6, 10};                 ///< steps of following before it brakes for good
-constexpr int kBrakes = static_cast<int>(kBrakesFor.size() + kBrakesAfter.size());
+constexpr int kFollows = std::ssize(kFollowShares);
+constexpr int kArcs = (std::ssize(kForward) + std::ssize(kBack)) * kTurnCount;
+constexpr int kBentForward = std::ssize(kForward) * std::ssize(kBends) * kTurnCount;
+constexpr int kBentBack = std::ssize(kBack) * kTurnCount;
+constexpr int kStraights = 12;                             ///< directions, all round
+constexpr int kBrakesFor[] = {kSteps, 8, 16, 24, 32, 40};  ///< steps from now, before it follows
+constexpr int kBrakesAfter[] = {3, 6, 10};                 ///< steps of following before it brakes for good
+constexpr int kBrakes = std::ssize(kBrakesFor) + std::ssize(kBrakesAfter);
 
 constexpr int kSteerEvery = 3;     ///< steps
 constexpr int kSteerWayEvery = 2;  ///< the same, along a way of poses
@@ -79,12 +79,10 @@ const Compass kCompass = [] {
   return c;
 }();
 
-float at(const std::array<float, kTurns.size()>& values, int k) { return values[static_cast<std::size_t>(k)]; }
-
 }  // namespace
 
 int TrajectoryProposals::count() const {
-  return constant_ > 0.0F ? 1 + kTurnCount + static_cast<int>(kBends.size()) * kTurnCount
+  return constant_ > 0.0F ? (1 + static_cast<int>(std::size(kBends))) * kTurnCount + 1
                           : kFollows + 2 * kPauses + kArcs + kBentForward + kBentBack + kStraights + kBrakes;
 }
 
@@ -98,7 +96,7 @@ void TrajectoryProposals::make(int n, Trajectory& out) const noexcept {
   RobotState robot = s_.start;
   if (n < kFollows) {
     out.proposal = Proposal::kFollow;
-    return follow_from(robot, 0, kFollowShares[static_cast<std::size_t>(n)] * full, out);
+    return follow_from(robot, 0, kFollowShares[n] * full, out);
   }
   n -= kFollows;
   if (n < kPauses) {
@@ -125,38 +123,38 @@ void TrajectoryProposals::brake(int n, Trajectory& out) const noexcept {
   constexpr Command kStop{0.0F, 0.0F, true};
   out.proposal = Proposal::kBrake;
   RobotState robot = s_.start;
-  const auto k = static_cast<std::size_t>(n);
-  if (k >= kBrakesFor.size()) {
+  constexpr int kWaits = std::ssize(kBrakesFor);
+  if (n >= kWaits) {
     follow_from(robot, 0, s_.body.bounds.speed, out);
-    const int after = kBrakesAfter[k - kBrakesFor.size()];
+    const int after = kBrakesAfter[n - kWaits];
     return std::fill(out.commands.begin() + after, out.commands.end(), kStop);
   }
-  const int wait = kBrakesFor[k];
+  const int wait = kBrakesFor[n];
   drive_out(robot, 0, wait, kStop, out);
   if (wait < kSteps) follow_from(robot, wait, s_.body.bounds.speed, out);
 }
 
 void TrajectoryProposals::arc(int n, Trajectory& out) const noexcept {
-  const int row = n / kTurnCount, forward = static_cast<int>(kForward.size());
+  constexpr int kForwards = std::ssize(kForward);
+  const int row = n / kTurnCount;
   const MotionBounds& b = s_.body.bounds;
-  const float v = constant_ > 0.0F ? constant_
-                  : row < forward  ? kForward[static_cast<std::size_t>(row)] * b.speed
-                                   : -kBack[static_cast<std::size_t>(row - forward)] * b.back;
+  const float v = constant_ > 0.0F  ? constant_
+                  : row < kForwards ? kForward[row] * b.speed
+                                    : -kBack[row - kForwards] * b.back;
   out.proposal = v < 0.0F ? Proposal::kArcBack : Proposal::kArc;
-  out.commands.fill(permitted({v, at(kTurns, n % kTurnCount) * b.turn}));
+  out.commands.fill(permitted({v, kTurns[n % kTurnCount] * b.turn}));
 }
 
 void TrajectoryProposals::arc_then_follow(int n, Trajectory& out) const noexcept {
   const MotionBounds& b = s_.body.bounds;
   const bool back = constant_ <= 0.0F && n >= kBentForward;
-  const int row = (back ? n - kBentForward : n) / kTurnCount, bends = static_cast<int>(kBends.size());
-  const float v = constant_ > 0.0F ? constant_
-                  : back           ? -kBack[static_cast<std::size_t>(row)] * b.back
-                                   : kForward[static_cast<std::size_t>(row / bends)] * b.speed;
-  const int steps = back ? kBends[0] : kBends[static_cast<std::size_t>(row % bends)];
+  constexpr int kBendCount = std::ssize(kBends);
+  const int row = (back ? n - kBentForward : n) / kTurnCount;
+  const float v = constant_ > 0.0F ? constant_ : back ? -kBack[row] * b.back : kForward[row / kBendCount] * b.speed;
+  const int steps = back ? kBends[0] : kBends[row % kBendCount];
   out.proposal = back ? Proposal::kBackThenFollow : Proposal::kArcThenFollow;
   RobotState robot = s_.start;
-  drive_out(robot, 0, steps, permitted({v, at(kTurns, n % kTurnCount) * b.turn}), out);
+  drive_out(robot, 0, steps, permitted({v, kTurns[n % kTurnCount] * b.turn}), out);
   follow_from(robot, steps, constant_ > 0.0F ? constant_ : b.speed, out);
 }
 

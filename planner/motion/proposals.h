@@ -1,5 +1,5 @@
 #pragma once
-#include "planner/motion/trajectory_cost.h"
+#include "planner/motion/situation.h"
 
 namespace jaywalk::motion {
 

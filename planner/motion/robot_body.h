@@ -14,10 +14,9 @@
 
 namespace jaywalk::motion {
 
-// A rectangular body's outline, point by point: how near it is to a surface where covering discs say too little.
-
-/// Points every 8 cm along the outline, corners among them, and the middles of the largest circles inside. A post
-/// between two points may be nearer than said: by 2 cm where it is 3 cm away.
+/// Outline of a rectangular body, where covering discs say too little of how near it is to a surface: points every 8 cm
+/// along it, corners among them, and the middles of the largest circles inside. A post between two points may be nearer
+/// than said: by 2 cm where it is 3 cm away.
 struct BodyOutline {
   static constexpr std::size_t kMostPoints = 96, kMostCircles = 8;
   static constexpr double kSpacing_m = 0.08;
@@ -67,10 +66,8 @@ struct BodyOutline {
   }
 };
 
-// A rectangular body as a row of discs that cover it: its distance to a surface in a few looks.
-
-/// Discs of one radius with their middles on the body's long axis. They reach beyond its sides by what the constructor
-/// was told at most, so that what is clear of them is clear of the body.
+/// Discs of one radius that cover a rectangular body, with their middles on its long axis. They reach beyond its sides
+/// by what the constructor was told at most, so that what is clear of them is clear of the body.
 struct BodyDiscs {
   static constexpr int kMost = 12;
   std::array<float, kMost> ahead{};  ///< of each middle, m from the axle

@@ -8,17 +8,6 @@ namespace {
 
 constexpr float kRoomToTurn = 2.5F;  // times (circumscribed less inscribed radius), beyond the circumscribed circle
 
-Seen seen_in(const World& world, const OfEach<SeenFrom>& scans, const Guide& ground) noexcept {
-  return {world.now,
-          world.scan.stamp,
-          world.map_from_robot,
-          world.perceived.tracks,
-          world.perceived.standing,
-          world.perceived.still,
-          scans,
-          ground};
-}
-
 }  // namespace
 
 RolloutMotion::RolloutMotion(const MotionSetup& setup)
@@ -34,7 +23,9 @@ void RolloutMotion::decide(const World& world, const Intent& intent) noexcept {
   if (!world.new_scan || !finite(world.map_from_robot)) return;
   const SeenFrom newest = world.newest();
   const OfEach<SeenFrom> scans(newest, world.other_scans);
-  memory_.update(seen_in(world, scans, ground_before(world)));
+  const Perceived& seen = world.perceived;
+  memory_.update(
+      {world.now, world.map_from_robot, seen.tracks, seen.standing, seen.still, scans, ground_before(world)});
   const Guide& ground = this->ground(world);
   if (!is_to_decide(world, intent, ground)) return;
   ++decision_.number;

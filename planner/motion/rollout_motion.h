@@ -2,7 +2,7 @@
 #include <memory>
 
 #include "planner/motion/motion.h"
-#include "planner/motion/trajectory_cost.h"
+#include "planner/motion/proposals.h"
 #include "planner/prediction/mover_history.h"
 
 namespace jaywalk::motion {
@@ -55,14 +55,14 @@ class RolloutMotion : public Motion {
     bool rests = false;  ///< it is to come to rest
   };
 
-  [[nodiscard]] const MoverHistory& memory() const { return memory_; }
-  [[nodiscard]] const Trajectory& decided() const { return decision_.trajectory; }
   /// Of the last decision; rest where that is too old.
   [[nodiscard]] Command command_at(Time now) const noexcept;
   /// Whether the last decision still holds, so that what is left of it may be gone on with.
   [[nodiscard]] bool holds(Time now) const noexcept { return decision_.at != kNever && now - decision_.at < kHoldsFor; }
-  /// m/s2, as it was last sent.
-  [[nodiscard]] float sent_accel() const noexcept { return accel_; }
+  /// What is left of the last decision.
+  [[nodiscard]] Trajectory rest_of_decision(Time now) const noexcept {
+    return shifted(decision_.trajectory, static_cast<float>(to_seconds(now - decision_.at)));
+  }
   [[nodiscard]] float tick_s() const noexcept { return static_cast<float>(setup_.tick_s); }
 
   MotionSetup setup_;
@@ -71,6 +71,8 @@ class RolloutMotion : public Motion {
   NearReturns returns_;
   Decision decision_;
   MotionStatus status_;
+  MoverHistory memory_;
+  float accel_ = 0.0F;  ///< of the ramp, m/s2, as it was last sent
 
  private:
   /// The ground that movers were seen on; of this scan once their bodies are known.
@@ -86,10 +88,9 @@ class RolloutMotion : public Motion {
   [[nodiscard]] PoseRequest poses_asked(const World& world) const noexcept;
   void place_unseen_walls(const World& world) noexcept;
 
-  MoverHistory memory_;
   FixedVector<Vec2, kMaxUnseenWalls> unseen_walls_;  ///< World's, in the map
   Command commanded_;                                ///< last
-  float accel_ = 0.0F, braked_ = 0.0F;               ///< of the ramp, and of the brake
+  float braked_ = 0.0F;                              ///< what the brake took last, m/s2
 };
 
 }  // namespace jaywalk::motion

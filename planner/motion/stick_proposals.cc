@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "planner/cell/draws.h"
 
@@ -11,21 +12,16 @@ namespace {
 constexpr std::uint32_t kStickPurpose = 4;  ///< of the draws
 constexpr float kWeight = 2.0F;             ///< of a second off
 
-constexpr std::array<float, 5> kStops{0.0F, 3.0F, 6.0F, 10.0F, 15.0F};  ///< steps as asked before it slows down
-constexpr std::array<float, 3> kShares{1.0F, 0.667F, 0.333F};
-constexpr std::array<float, 10> kStickAside{0.12F,  -0.12F, 0.25F, -0.25F, 0.45F,
-                                            -0.45F, 0.7F,   -0.7F, 1.0F,   -1.0F};  ///< of the fastest turn
-constexpr std::array<float, 4> kAsideSteps{4.0F, 8.0F, 14.0F, 22.0F};
-constexpr std::array<float, 2> kStickBack{0.0F, 1.0F}, kTurnShares{1.0F, 0.0F};
-constexpr int kStopCount = static_cast<int>(kStops.size()), kShareCount = static_cast<int>(kShares.size());
-constexpr int kStepCount = static_cast<int>(kAsideSteps.size()), kBackCount = static_cast<int>(kStickBack.size());
-constexpr int kTurnShareCount = static_cast<int>(kTurnShares.size());
-constexpr int kBent = static_cast<int>(kStickAside.size()) * kStepCount * kBackCount * kTurnShareCount;
-
-template <std::size_t N>
-float of(const std::array<float, N>& values, int n) {
-  return values[static_cast<std::size_t>(n)];
-}
+constexpr float kStops[] = {0.0F, 3.0F, 6.0F, 10.0F, 15.0F};  ///< steps as asked before it slows down
+constexpr float kShares[] = {1.0F, 0.667F, 0.333F};
+constexpr float kStickAside[] = {0.12F,  -0.12F, 0.25F, -0.25F, 0.45F,
+                                 -0.45F, 0.7F,   -0.7F, 1.0F,   -1.0F};  ///< of the fastest turn
+constexpr float kAsideSteps[] = {4.0F, 8.0F, 14.0F, 22.0F};
+constexpr float kStickBack[] = {0.0F, 1.0F}, kTurnShares[] = {1.0F, 0.0F};
+constexpr int kStopCount = std::ssize(kStops), kShareCount = std::ssize(kShares);
+constexpr int kStepCount = std::ssize(kAsideSteps), kBackCount = std::ssize(kStickBack);
+constexpr int kTurnShareCount = std::ssize(kTurnShares);
+constexpr int kBent = std::ssize(kStickAside) * kStepCount * kBackCount * kTurnShareCount;
 
 Command command_of(const StickShape& shape, const Command& asked, float step, const MotionBounds& bounds) {
   const float back_until = shape.aside_steps * (1.0F + shape.back);
@@ -89,40 +85,32 @@ void make(const StickShape& shape, const Command& asked, const RobotState& start
 int shape_count() noexcept { return 1 + kStopCount + (kShareCount - 1) + kShareCount * kBent; }
 
 StickShape shape_at(int n, const MotionBounds& bounds) noexcept {
-  StickShape shape;
-  if (n == 0) return shape;
-  if (--n < kStopCount) {
-    shape.steps = of(kStops, n);
-    return shape;
-  }
+  if (n == 0) return {};
+  if (--n < kStopCount) return {.steps = kStops[n]};
   n -= kStopCount;
-  if (n < kShareCount - 1) {
-    shape.share = of(kShares, n + 1);
-    return shape;
-  }
+  if (n < kShareCount - 1) return {.share = kShares[n + 1]};
   n -= kShareCount - 1;
-  shape.share = of(kShares, n / kBent);
+  const float share = kShares[n / kBent];
   n %= kBent;
-  shape.turn_share = of(kTurnShares, n % kTurnShareCount);
+  const float turn_share = kTurnShares[n % kTurnShareCount];
   n /= kTurnShareCount;
-  shape.back = of(kStickBack, n % kBackCount);
-  shape.aside_steps = of(kAsideSteps, n / kBackCount % kStepCount);
-  shape.aside = of(kStickAside, n / (kBackCount * kStepCount)) * bounds.turn;
-  return shape;
+  return {.share = share,
+          .turn_share = turn_share,
+          .aside = kStickAside[n / (kBackCount * kStepCount)] * bounds.turn,
+          .aside_steps = kAsideSteps[n / kBackCount % kStepCount],
+          .back = kStickBack[n % kBackCount]};
 }
 
 StickShape perturbed(const StickShape& shape, std::uint32_t decision, int round, int number,
                      const MotionBounds& bounds) noexcept {
   constexpr auto kMost = static_cast<float>(kFollowedSteps);
   cell::Draws draws({decision, kStickPurpose, static_cast<std::uint32_t>(round), static_cast<std::uint32_t>(number)});
-  StickShape out;
-  out.share = std::clamp(shape.share + 0.25F * draws.normal(), 0.0F, 1.0F);
-  out.turn_share = std::clamp(shape.turn_share + 0.25F * draws.normal(), 0.0F, 1.0F);
-  out.aside = std::clamp(shape.aside + 0.15F * bounds.turn * draws.normal(), -bounds.turn, bounds.turn);
-  out.aside_steps = std::clamp(shape.aside_steps + 4.0F * draws.normal(), 0.0F, kMost);
-  out.back = std::clamp(shape.back + 0.4F * draws.normal(), 0.0F, 1.0F);
-  out.steps = std::clamp(shape.steps + 5.0F * draws.normal(), 0.0F, kMost);
-  return out;
+  return {.share = std::clamp(shape.share + 0.25F * draws.normal(), 0.0F, 1.0F),
+          .turn_share = std::clamp(shape.turn_share + 0.25F * draws.normal(), 0.0F, 1.0F),
+          .aside = std::clamp(shape.aside + 0.15F * bounds.turn * draws.normal(), -bounds.turn, bounds.turn),
+          .aside_steps = std::clamp(shape.aside_steps + 4.0F * draws.normal(), 0.0F, kMost),
+          .back = std::clamp(shape.back + 0.4F * draws.normal(), 0.0F, 1.0F),
+          .steps = std::clamp(shape.steps + 5.0F * draws.normal(), 0.0F, kMost)};
 }
 
 }  // namespace jaywalk::motion

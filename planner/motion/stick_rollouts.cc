@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "planner/motion/proposals.h"
-
 namespace jaywalk::motion {
 namespace {
 
@@ -18,7 +16,8 @@ float at_most(float speed, float asked) { return std::clamp(speed, std::min(aske
 
 }  // namespace
 
-StickRollouts::StickRollouts(const MotionSetup& setup) : RolloutMotion(setup), ground_(setup_.keep_out_zones()) {}
+StickRollouts::StickRollouts(const MotionSetup& setup)
+    : RolloutMotion(setup), ground_(setup_.keep_out ? setup_.keep_out->view() : KeepOut{}) {}
 
 void StickRollouts::observe(const World& world, const Intent& intent) noexcept {
   RolloutMotion::observe(world, intent);
@@ -28,7 +27,7 @@ void StickRollouts::observe(const World& world, const Intent& intent) noexcept {
 }
 
 const Guide& StickRollouts::ground(const World& world) noexcept {
-  return ground_.update(world.perceived.still, world.map_from_robot.position(), memory().masked());
+  return ground_.update(world.perceived.still, world.map_from_robot.position(), memory_.masked());
 }
 
 bool StickRollouts::is_to_decide(const World& world, const Intent& intent, const Guide&) noexcept {
@@ -52,7 +51,7 @@ void StickRollouts::choose(const World& world, const Guide& ground) noexcept {
   }
   const bool is_wish = best_shape_.aside == 0.0F && best_shape_.share == 1.0F && best_shape_.turn_share == 1.0F;
   if (holds(world.now) && !is_wish) {
-    trial_ = shifted(decided(), static_cast<float>(to_seconds(world.now - decision_.at)));
+    trial_ = rest_of_decision(world.now);
     if (trajectory_cost(situation, trial_, best_cost_ + kLeastStickGain).total() < best_cost_ + kLeastStickGain)
       best_ = trial_;
   }

@@ -1,5 +1,3 @@
-#include "planner/motion/trajectory_cost.h"
-
 #include <algorithm>
 
 #include "planner/motion/cost/ground_cost.h"
@@ -15,7 +13,7 @@ int roll_out(const Situation& s, const Trajectory& trajectory, RobotState* state
   TimeCost time(s);
   ComfortCost comfort(s);
   StopZoneCost stop_zone(s);
-  time.begin(cost);
+  cost.time = price::kArrivedEarly;
   RobotState robot = s.start;
   KnownBehind behind = s.known_behind;
   bool arrived = false;
@@ -43,27 +41,21 @@ int roll_out(const Situation& s, const Trajectory& trajectory, RobotState* state
   return last;
 }
 
-/// What the states are near to.
-class SurroundingsCost {
- public:
-  explicit SurroundingsCost(const Situation& s) : walls_(s), unseen_(s), movers_(s) {}
-
-  void add(const RobotState& now, int step, Cost& cost) noexcept {
+/// Adds the costs from surroundings: walls, unseen ground, movers. Gives up above `bound`.
+void add_surroundings(const Situation& s, const RobotState* states, int steps, float bound, Cost& cost) noexcept {
+  WallCost walls(s);
+  UnseenCost unseen(s);
+  MoverCost movers(s);
+  for (int step = 0; step < steps; ++step) {
     const float t = static_cast<float>(step + 1) * kStepS;
-    const cell::Heading along = cell::heading_at(now.heading);
-    walls_.add(now, along, t, cost);
-    unseen_.add(now, along, cost);
-    if (is_of_futures(step)) movers_.add(now, along, (step + 1) / 2, t, cost);
+    const cell::Heading along = cell::heading_at(states[step].heading);
+    walls.add(states[step], along, t, cost);
+    unseen.add(states[step], along, cost);
+    if ((step & 1) == 0) continue;  // futures have a step for two of the robot's
+    movers.add(states[step], along, (step + 1) / 2, t, cost);
+    if (cost.total() > bound) return;
   }
-
-  /// Futures have a step for two of the robot's.
-  [[nodiscard]] static bool is_of_futures(int step) noexcept { return (step & 1) != 0; }
-
- private:
-  WallCost walls_;
-  UnseenCost unseen_;
-  MoverCost movers_;
-};
+}
 
 }  // namespace
 
@@ -76,11 +68,7 @@ Cost trajectory_cost(const Situation& s, const Trajectory& trajectory, float bou
     std::fill(driven + steps, driven + kSteps, states[steps - 1]);
   }
   if (cost.total() > bound) return cost;  // what it is near to can only add
-  SurroundingsCost surroundings(s);
-  for (int step = 0; step < steps; ++step) {
-    surroundings.add(states[step], step, cost);
-    if (SurroundingsCost::is_of_futures(step) && cost.total() > bound) return cost;
-  }
+  add_surroundings(s, states, steps, bound, cost);
   return cost;
 }
 

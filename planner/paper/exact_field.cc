@@ -108,20 +108,16 @@ class Network {
 
 }  // namespace
 
-std::vector<double> exact_psi(Grid grid, const std::uint8_t* free, std::int32_t goal) {
+std::vector<double> exact_psi(Grid grid, const std::uint8_t* free, std::int32_t goal, double most) {
   const Order order(grid, free, goal);
+  const double band = order.band(grid);
+  if (static_cast<double>(order.cells.size()) * band * band / 2.0 > most) return {};
   Network network(grid, order);
   for (std::size_t k = order.cells.size() - 1; k > 0; --k) network.eliminate(k);
   std::vector<double> by_order(order.cells.size(), 0.0), by_cell(static_cast<std::size_t>(grid.cells()), kInfinite);
   for (std::size_t k = 1; k < by_order.size(); ++k) by_order[k] = network.psi(k, by_order);
   for (std::size_t k = 0; k < by_order.size(); ++k) by_cell[static_cast<std::size_t>(order.cells[k])] = by_order[k];
   return by_cell;
-}
-
-double exact_cost(Grid grid, const std::uint8_t* free, std::int32_t goal) {
-  const Order order(grid, free, goal);
-  const double band = order.band(grid);
-  return static_cast<double>(order.cells.size()) * band * band / 2.0;
 }
 
 double share_of_best(Grid grid, const float* psi, const std::vector<double>& exact, std::int32_t goal) {

@@ -32,8 +32,7 @@
 namespace jaywalk::paper {
 using field::Grid;
 
-/// An executor's memory for a grid's values by rows, with a spare row and a cell at either end: a stage may fetch
-/// what lies beyond the border before it decides not to use it.
+/// Memory for a grid's values by rows, with a spare row and a cell at either end: stages may read beyond the border.
 template <class T, class Executor>
 [[nodiscard]] T* take_rows(Executor& executor, std::int32_t side) {
   const auto spare = static_cast<std::size_t>(side) + 1;

@@ -58,8 +58,9 @@ class MapFieldOn final : public MapField {
     std::vector<std::uint8_t> free(static_cast<std::size_t>(grid_.cells()));
     for (std::size_t c = 0; c < free.size(); ++c) free[c] = pass_.shown().clearance[c] > 0.0F ? 1 : 0;
     const std::int32_t at = grid_.at(goal.i, goal.j);
-    if (exact_cost(grid_, free.data(), at) > most) return std::nullopt;
-    return share_of_best(grid_, pass_.shown().psi, exact_psi(grid_, free.data(), at), at);
+    const std::vector<double> exact = exact_psi(grid_, free.data(), at, most);
+    if (exact.empty()) return std::nullopt;
+    return share_of_best(grid_, pass_.shown().psi, exact, at);
   }
 
   [[nodiscard]] float psi(std::int32_t i, std::int32_t j) const noexcept override {

@@ -1,6 +1,5 @@
 #pragma once
-// The paper's first two kernels and the marking: warp of each cell, prediction of each mover, cells
-// occupied. Lengths in cells, positions from the window's low corner, times in seconds.
+// The paper's first two kernels and the marking. Lengths in cells, positions from the window's low corner, times in s.
 #include <cmath>
 
 #include "planner/cell/kalman.h"
@@ -11,9 +10,8 @@ namespace jaywalk::paper {
 /// A higher reach closes doorways that movers leave open; measured by success, not by principle.
 inline constexpr float kMarkDeviations = 1.0F;
 
-/// Distance from a mover's expected position within which cells count as occupied: its body, the
-/// safety distance, and where the Gaussian of the prediction's variance (per axis) is above its
-/// level, at most `most_spread`: a mark that fills the room forbids nothing useful.
+/// Distance from a mover's expected position within which cells count as occupied: its body, the safety distance, and
+/// one deviation (variance: per axis), at most `most_spread`: a mark that fills the room forbids nothing useful.
 JAYWALK_CELL float mark_radius(float body, float safety, float variance, float most_spread) {
   const float spread = kMarkDeviations * std::sqrt(variance);
   return body + safety + (spread < most_spread ? spread : most_spread);
@@ -21,10 +19,9 @@ JAYWALK_CELL float mark_radius(float body, float safety, float variance, float m
 
 JAYWALK_CELL bool within(float dx, float dy, float radius) { return dx * dx + dy * dy <= radius * radius; }
 
-/// The warp number of a place `ahead` of the robot and `left` of it, as the length r of the major
-/// axis of the ellipse that it lies on (equation time-warp, solved for r): with r_x = 4 r_y and the
-/// centre 0.9 r ahead, 0.19 r^2 + 1.8 a r - (a^2 + 16 l^2) = 0. Same unit as the offsets.
-/// Straight ahead a/1.9, straight behind 10 |a|, abeam 9.18 |l|.
+/// The warp number of a place `ahead` of the robot and `left` of it, as the length r of the major axis of the ellipse
+/// that it lies on (equation time-warp, solved for r): with r_x = 4 r_y and the centre 0.9 r ahead, 0.19 r^2 + 1.8 a r
+/// - (a^2 + 16 l^2) = 0. Same unit as the offsets. Straight ahead a/1.9, straight behind 10 |a|, abeam 9.18 |l|.
 JAYWALK_CELL float warp_radius(float ahead, float left) {
   return (std::sqrt(ahead * ahead + 3.04F * (left * left)) - 0.9F * ahead) / 0.19F;
 }
@@ -57,26 +54,10 @@ struct Mark {
   float x, y, radius, horizon_s;
 };
 
-/// Kernel 1: the warp radius of each cell.
-struct WarpOfEachCell {
-  Grid grid;
-  Warping warping;
-  float* warp;
-
-  JAYWALK_CELL void operator()(std::int32_t i, std::int32_t j) const {
-    const float dx = static_cast<float>(i) + 0.5F - warping.robot_x;
-    const float dy = static_cast<float>(j) + 0.5F - warping.robot_y;
-    const float ahead = warping.cos_heading * dx + warping.sin_heading * dy;
-    const float left = warping.cos_heading * dy - warping.sin_heading * dx;
-    warp[grid.at(i, j)] = warp_radius(ahead, left);
-  }
-};
-
-/// Kernel 2: each mover predicted to the horizon of the cell that it stands in (outside: the cap).
+/// Kernels 1 and 2: each mover predicted to the horizon of the cell that it stands in (outside: the cap).
 struct PredictEachMover {
   Grid grid;
   Warping warping;
-  const float* warp;
   const Mover* movers;
   Mark* marks;
 
@@ -87,14 +68,21 @@ struct PredictEachMover {
                         mover.y.position < static_cast<float>(grid.side);
     float horizon_s = warping.cap_s;
     if (inside) {
-      const auto i = static_cast<std::int32_t>(mover.x.position);
-      const auto j = static_cast<std::int32_t>(mover.y.position);
-      horizon_s = horizon(warp[grid.at(i, j)], mover.speed, warping.cap_s);
+      const float dx = middle_of_cell(mover.x.position) - warping.robot_x;
+      const float dy = middle_of_cell(mover.y.position) - warping.robot_y;
+      const float ahead = warping.cos_heading * dx + warping.sin_heading * dy;
+      const float left = warping.cos_heading * dy - warping.sin_heading * dx;
+      horizon_s = horizon(warp_radius(ahead, left), mover.speed, warping.cap_s);
     }
     const cell::AxisState x = cell::predict(mover.x, horizon_s, warping.process_noise);
     const cell::AxisState y = cell::predict(mover.y, horizon_s, warping.process_noise);
     marks[k] = {x.position, y.position, mark_radius(mover.radius, warping.safety, x.pp, warping.most_spread),
                 horizon_s};
+  }
+
+ private:
+  JAYWALK_CELL static float middle_of_cell(float at) {
+    return static_cast<float>(static_cast<std::int32_t>(at)) + 0.5F;
   }
 };
 

@@ -163,9 +163,8 @@ class Multigrid {
     counted_ = executor.template take<Counted>(static_cast<std::size_t>(max_side));
   }
 
-  /// Improves psi (cell::kUnreachable and cell::kNotFree where that is so) by `least` cycles or more, until one has
-  /// found hardly anything new, at most `most`. Returns how many. Blocks are weighted afresh each time: with the
-  /// weights of the cycle before, the second makes things worse.
+  /// Improves psi by `wanted` cycles. Returns how many. Blocks are weighted afresh each time: with the weights of the
+  /// cycle before, the second makes things worse.
   std::int32_t improve(Grid grid, std::int32_t goal, Cycles wanted) noexcept {
     for (std::int32_t depth = 0, side = grid.side; side >= kCoarsestSide; ++depth, side /= 2)
       levels_[depth].grid.side = side;
@@ -188,15 +187,13 @@ class Multigrid {
   /// Least share of the blocks below, of those with an equation, for which a level in use speaks.
   /// (Open ground, rooms, boxes: 0.85 to 1. Corridors of 1.5 m: 0.78, with 0.5 on the next level.)
   static constexpr float kSpokenShare = 0.8F;
-  /// A cycle that has tilted less than a 128th of the cells by more than a hundredth has found their directions: the
-  /// next would tilt a tenth of that, and 99.9 % of cells and more pick the exact field's best neighbour
-  /// (potential_test).
+  /// A cycle that has tilted less than a 128th of the cells by more than a hundredth has found their directions: 99.9 %
+  /// of cells and more then pick the exact field's best neighbour (potential_test).
   static constexpr float kTilt = 0.01F;
   static constexpr std::int32_t kSettledShare = 128;
 
   /// Further sweeps after a correction, by depth. Blocks of 8 cells are the largest that still tell the two sides of an
-  /// ordinary wall apart; a level's error leaves a long corridor along them, a block or two a sweep, and they are few.
-  /// Blocks of 2 and 4 tell those of a thin one apart. Numbers by trial on random maps
+  /// ordinary wall apart, blocks of 2 and 4 those of a thin one. Numbers by trial on random maps
   /// (docs/explanation/results.md#time).
   static constexpr std::int32_t further_sweeps(std::int32_t depth) {
     return depth == 1 ? 6 : (depth == 2 ? 24 : (depth == kBulkyDepth ? 64 : 0));
@@ -240,8 +237,7 @@ class Multigrid {
     climb(depth, 0);
   }
 
-  /// Down to the lowest level of use, which is relaxed. `build`: the levels' equations, unless they are there. Returns
-  /// the lowest level.
+  /// Goes down to the lowest level of use, relaxes it, and returns it. `build`: the levels' equations are not there.
   std::int32_t descend(std::int32_t depth, bool first, bool build) noexcept {
     for (; levels_[depth].grid.side > kCoarsestSide; ++depth) {
       go_down(depth, build);
@@ -283,9 +279,8 @@ class Multigrid {
     for_each_cell(coarse, RestrictToBlock{fine, coarse, blocks});
   }
 
-  /// True where this level's blocks speak for enough of those below. Large ones in narrow passages do not: they lie
-  /// across walls, and what they find for one passage is wrong in the next. The level and all above it are then left
-  /// out.
+  /// True where this level's blocks speak for enough of those below. Large ones in narrow passages lie across walls;
+  /// the level and all above it are then left out.
   bool speaks_for_most(std::int32_t depth) noexcept {
     const std::int32_t side = levels_[depth].grid.side;
     executor_.for_each_cell(side, 1, SpokenOfRow{side, levels_[depth - 1].diagonal, blocks_[depth].ties, counted_});
@@ -293,7 +288,6 @@ class Multigrid {
     return static_cast<float>(spoken.cells) >= kSpokenShare * static_cast<float>(spoken.joined);
   }
 
-  /// True where the last cycle has found hardly anything new.
   bool is_settled() noexcept {
     const Level& cells = levels_[0];
     executor_.for_each_cell(cells.grid.side, 1, TiltedOfRow{cells.grid, kTilt, cells.x, counted_});

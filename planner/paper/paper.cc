@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "planner/motion/twist_ramp.h"
 #include "planner/paper/executor.h"
 #include "planner/paper/map_field_on.h"
 #include "planner/paper/paper_planner.h"
@@ -36,68 +37,72 @@ bool is_plausible(const StandingPedestrian& s) {
          std::fabs(s.radius_m) <= kFarthest_m;
 }
 
-}  // namespace
+class PathMotion final : public motion::Motion {
+ public:
+  explicit PathMotion(const motion::MotionSetup& setup)
+      : limits_(setup.model.limits), tick_s_(setup.tick_s), ramp_(setup.model.limits) {}
 
-std::size_t nearest_point(const Path& path, Vec2 place) noexcept {
-  std::size_t nearest = 0;
-  for (std::size_t i = 1; i < path.size(); ++i) {
-    if (distance(path[i], place) < distance(path[nearest], place)) nearest = i;
+  void observe(const motion::World& world, const motion::Intent&) noexcept override {
+    // Without a path it would go straight on.
+    status_.rests_on = world.plan.status == PlanStatus::kOk ? world.plan.stamp : kNever;
   }
-  return nearest;
+  [[nodiscard]] Twist2 command(const motion::World& world, const motion::Intent& intent) noexcept override {
+    ramp_.follow(world.driven);
+    return ramp_.toward(target(world, intent), tick_s_);
+  }
+  void decide(const motion::World&, const motion::Intent&) noexcept override {}
+  [[nodiscard]] motion::MotionStatus status() const noexcept override { return status_; }
+  [[nodiscard]] PlanRequest request(const motion::World& world) const noexcept override {
+    return {.stamp = world.scan.stamp,
+            .map_from_robot = world.map_from_robot,
+            .goal_in_map = world.input.goal_in_map,
+            .speed_mps = limits_.max_speed_mps,
+            .still = &world.perceived.still,
+            .moving = world.perceived.moving,
+            .standing = world.perceived.standing};
+  }
+
+ private:
+  [[nodiscard]] Twist2 target(const motion::World& world, const motion::Intent& intent) const noexcept {
+    if (intent.kind != motion::Intent::Kind::kGoal) return {};
+    const double cruise = limits_.max_speed_mps, most_radps = limits_.max_turn_radps;
+    if (world.plan.path.empty()) return {cruise, 0.0};
+    const double v_now = std::max(world.driven.v_mps, 0.0);
+    const Pose2& here = world.map_from_robot;
+    const Vec2 aim = inverse(here) * look_ahead(world.plan.path, here.position(), kLookAhead_m + kLookAhead_s * v_now);
+    const double bearing = atan2(aim.y, aim.x);
+    if (std::fabs(bearing) > kTurnInPlaceAbove_rad)
+      return {cruise, std::clamp(kTurnGain_per_s * bearing, -most_radps, most_radps)};
+    // The circle through here and the aim that is tangent to the heading has curvature 2 y / d^2.
+    const double curvature_per_m = 2.0 * aim.y / std::max(dot(aim, aim), 1e-6);
+    return {cruise, std::clamp(curvature_per_m * std::max(cruise, v_now), -most_radps, most_radps)};
+  }
+
+  MotionLimits limits_;
+  double tick_s_;
+  TwistRamp ramp_;
+  motion::MotionStatus status_;
+};
+
+/// Calls visit(cell, its middle in the map) for the window's cells from `low` to `high`.
+template <class Visit>
+void for_each_cell(const Window& window, CellIndex low, CellIndex high, const Visit& visit) {
+  for (std::int32_t j = std::max(low.j, 0); j <= std::min(high.j, window.side - 1); ++j) {
+    for (std::int32_t i = std::max(low.i, 0); i <= std::min(high.i, window.side - 1); ++i)
+      visit(window.grid().at(i, j), window.in_map({i + 0.5, j + 0.5}));
+  }
 }
 
+}  // namespace
+
 Vec2 look_ahead(const Path& path, Vec2 robot, double ahead_m) noexcept {
-  for (std::size_t i = nearest_point(path, robot); i + 1 < path.size(); ++i) {
-    const double piece = distance(path[i], path[i + 1]);
-    if (piece > ahead_m) return path[i] + (path[i + 1] - path[i]) * (ahead_m / piece);
+  const auto is_nearer = [robot](Vec2 a, Vec2 b) { return distance(a, robot) < distance(b, robot); };
+  for (const Vec2* p = std::min_element(path.begin(), path.end(), is_nearer); p + 1 < path.end(); ++p) {
+    const double piece = distance(p[0], p[1]);
+    if (piece > ahead_m) return p[0] + (p[1] - p[0]) * (ahead_m / piece);
     ahead_m -= piece;
   }
   return path.back();
-}
-
-bool Steering::turns_first() const noexcept { return std::fabs(bearing) > kTurnInPlaceAbove_rad; }
-
-double Steering::turn_radps(double most_radps) const noexcept {
-  return std::clamp(kTurnGain_per_s * bearing, -most_radps, most_radps);
-}
-
-Steering pursue(const Path& path, const Pose2& map_from_robot, double v_mps) noexcept {
-  const Vec2 target =
-      inverse(map_from_robot) * look_ahead(path, map_from_robot.position(), kLookAhead_m + kLookAhead_s * v_mps);
-  // The circle through here and the target that is tangent to the heading has curvature 2 y / d^2.
-  return {atan2(target.y, target.x), 2.0 * target.y / std::max(dot(target, target), 1e-6)};
-}
-
-PathMotion::PathMotion(const motion::MotionSetup& setup)
-    : limits_(setup.model.limits), tick_s_(setup.tick_s), ramp_(setup.model.limits) {}
-
-void PathMotion::observe(const motion::World& world, const motion::Intent&) noexcept {
-  status_.rests_on = world.plan.status == PlanStatus::kOk ? world.plan.stamp : kNever;  // else it would go straight on
-}
-
-Twist2 PathMotion::command(const motion::World& world, const motion::Intent& intent) noexcept {
-  ramp_.follow(world.driven);
-  return ramp_.toward(target(world, intent), tick_s_);
-}
-
-Twist2 PathMotion::target(const motion::World& world, const motion::Intent& intent) const noexcept {
-  if (intent.kind != motion::Intent::Kind::kGoal) return {};
-  const double cruise = limits_.max_speed_mps;
-  if (world.plan.path.empty()) return {cruise, 0.0};
-  const double v_now = std::max(world.driven.v_mps, 0.0);
-  const Steering steering = pursue(world.plan.path, world.map_from_robot, v_now);
-  if (steering.turns_first()) return {cruise, steering.turn_radps(limits_.max_turn_radps)};
-  return {cruise, steering.circle_radps(std::max(cruise, v_now), limits_.max_turn_radps)};
-}
-
-PlanRequest PathMotion::request(const motion::World& world) const noexcept {
-  return {.stamp = world.scan.stamp,
-          .map_from_robot = world.map_from_robot,
-          .goal_in_map = world.input.goal_in_map,
-          .speed_mps = limits_.max_speed_mps,
-          .still = &world.perceived.still,
-          .moving = world.perceived.moving,
-          .standing = world.perceived.standing};
 }
 
 void check(const PaperConfig& config) {
@@ -170,12 +175,9 @@ void fetch_keep_out(const Window& window, const KeepOut& keep_out, Vec2 robot, s
   const double node_m = static_cast<double>(keep_out.node_m);
   const CellIndex low = window.cell_at(first),
                   high = window.cell_at(first + Vec2{keep_out.width * node_m, keep_out.height * node_m});
-  for (std::int32_t j = std::max(low.j, 0); j <= std::min(high.j, window.side - 1); ++j) {
-    for (std::int32_t i = std::max(low.i, 0); i <= std::min(high.i, window.side - 1); ++i) {
-      const Vec2 middle = window.in_map({i + 0.5, j + 0.5});
-      if (distance_at(middle) < 0.0 && distance(middle, robot) >= open_m) occupants[window.grid().at(i, j)] |= kWall;
-    }
-  }
+  for_each_cell(window, low, high, [&](std::int32_t c, Vec2 middle) {
+    if (distance_at(middle) < 0.0 && distance(middle, robot) >= open_m) occupants[c] |= kWall;
+  });
 }
 
 void fetch_standing(const Window& window, std::span<const StandingPedestrian> standing,
@@ -183,13 +185,9 @@ void fetch_standing(const Window& window, std::span<const StandingPedestrian> st
   for (const StandingPedestrian& stander : standing) {
     const Vec2 middle = stander.position_in_map, half{stander.radius_m, stander.radius_m};
     if (!is_plausible(stander)) continue;
-    const CellIndex low = window.cell_at(middle - half), high = window.cell_at(middle + half);
-    for (std::int32_t j = std::max(low.j, 0); j <= std::min(high.j, window.side - 1); ++j) {
-      for (std::int32_t i = std::max(low.i, 0); i <= std::min(high.i, window.side - 1); ++i) {
-        const bool his = distance(window.in_map({i + 0.5, j + 0.5}), middle) <= stander.radius_m;
-        if (his) occupants[window.grid().at(i, j)] |= kMover;
-      }
-    }
+    for_each_cell(window, window.cell_at(middle - half), window.cell_at(middle + half), [&](std::int32_t c, Vec2 p) {
+      if (distance(p, middle) <= stander.radius_m) occupants[c] |= kMover;
+    });
   }
 }
 

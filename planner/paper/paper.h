@@ -4,55 +4,15 @@
 #include <memory>
 #include <span>
 
-#include "planner/cost_to_go/planning_rules.h"
+#include "planner/cost_to_go/planner.h"
 #include "planner/mapping/window.h"
 #include "planner/motion/motion.h"
-#include "planner/motion/twist_ramp.h"
 #include "planner/paper/mark_stages.h"
 
 namespace jaywalk::paper {
-/// Which point of the path is nearest to `place`, the first of equals. The path is not empty.
-[[nodiscard]] std::size_t nearest_point(const Path& path, Vec2 place) noexcept;
-
-/// The point of the path `ahead_m` of arc length beyond the point nearest to `robot`; the last one where the path ends
-/// before. The path is not empty.
+/// The point of the path `ahead_m` of arc length beyond the point nearest to `robot`, the first of equals; the last
+/// one where the path ends before. The path is not empty.
 [[nodiscard]] Vec2 look_ahead(const Path& path, Vec2 robot, double ahead_m) noexcept;
-
-/// How to steer for the point that a robot at `v_mps` (0 or more) looks at. The path is not empty.
-struct Steering {
-  double bearing = 0.0;          ///< of that point (rad, left positive)
-  double curvature_per_m = 0.0;  ///< of the circle through it that is tangent to the heading
-  /// It lies so far aside that the robot turns on the spot before it drives.
-  [[nodiscard]] bool turns_first() const noexcept;
-  /// Turning on the spot (rad/s), at most `most_radps`.
-  [[nodiscard]] double turn_radps(double most_radps) const noexcept;
-  /// Turning (rad/s) on the circle at `v_mps`, at most `most_radps`.
-  [[nodiscard]] double circle_radps(double v_mps, double most_radps) const noexcept {
-    return std::clamp(curvature_per_m * v_mps, -most_radps, most_radps);
-  }
-};
-[[nodiscard]] Steering pursue(const Path& path, const Pose2& map_from_robot, double v_mps) noexcept;
-
-/// Follows the plan's path at constant speed, never stopping: the paper's experiment. Pure pursuit, ramped within the
-/// comfort limits; without a path it goes straight on, without a goal it comes to rest.
-class PathMotion final : public motion::Motion {
- public:
-  explicit PathMotion(const motion::MotionSetup& setup);
-
-  void observe(const motion::World& world, const motion::Intent& intent) noexcept override;
-  [[nodiscard]] Twist2 command(const motion::World& world, const motion::Intent& intent) noexcept override;
-  void decide(const motion::World&, const motion::Intent&) noexcept override {}
-  [[nodiscard]] motion::MotionStatus status() const noexcept override { return status_; }
-  [[nodiscard]] PlanRequest request(const motion::World& world) const noexcept override;
-
- private:
-  [[nodiscard]] Twist2 target(const motion::World& world, const motion::Intent& intent) const noexcept;
-
-  MotionLimits limits_;
-  double tick_s_;
-  TwistRamp ramp_;
-  motion::MotionStatus status_;
-};
 
 using field::Window;
 
@@ -76,8 +36,7 @@ void check(const PaperConfig& config);
 
 [[nodiscard]] Warping warping_for(const PaperConfig& config, const Window& window, const PlanRequest& request) noexcept;
 
-/// The tracks that are numbers within reason, in the window's units; at most kMaxTracks, the rest is left out. Their
-/// ids in the same order. Returns how many.
+/// Tracks that are numbers within reason, kMaxTracks at most, in the window's units, and their ids. Returns how many.
 [[nodiscard]] std::int32_t fetch_movers(const Window& window, std::span<const Track> tracks, Mover* movers,
                                         std::array<std::uint32_t, kMaxTracks>& ids) noexcept;
 
@@ -92,11 +51,11 @@ void fetch_keep_out(const Window& window, const KeepOut& keep_out, Vec2 robot_in
 void fetch_standing(const Window& window, std::span<const StandingPedestrian> standing,
                     std::uint8_t* occupants) noexcept;
 
-/// Plans by the potential among marks, on the CPU: status and path are theirs. Throws StartupError for a configuration
-/// that makes no sense.
+/// Plans by the potential among marks, on the CPU. Throws as check() does.
 [[nodiscard]] std::unique_ptr<Planner> make_cpu_paper_planner(const PaperConfig& config);
 
-/// Follows the plan's path at constant speed, never stopping.
+/// Follows the plan's path at constant speed, never stopping: the paper's experiment. Pure pursuit, ramped within the
+/// comfort limits; without a path it goes straight on, without a goal it comes to rest.
 [[nodiscard]] std::unique_ptr<motion::Motion> make_motion(const motion::MotionSetup& setup);
 
 }  // namespace jaywalk::paper

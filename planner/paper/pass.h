@@ -1,6 +1,5 @@
 #pragma once
-// A plan's steps: marks and clearance, start field, solution. Between them the host chooses the goal and the path's
-// start.
+// A plan's steps: marks and clearance, start field, solution. Between them the host chooses goal and start.
 #include <optional>
 
 #include "planner/mapping/window.h"
@@ -30,14 +29,12 @@ struct FieldQuality {
 };
 
 /// Cycles of a solution from the start field. Up to 256 cells a side 99.9 % of cells or more then pick the exact
-/// field's best neighbour. On larger windows fewer do, for the time they take: what is lacking the submissions that
-/// follow find, each from the last one's field.
+/// field's best neighbour. On larger windows fewer do: the submissions that follow find the rest.
 [[nodiscard]] constexpr Cycles cold_cycles(Grid grid) {
   if (grid.side > kLargeSide) return {2, 2};
   return grid.side > 256 ? Cycles{3, 4} : Cycles{3, 5};
 }
-/// Cycles from the last submission's field: one where nothing has changed since, a second where the first has found
-/// more (docs/explanation/algorithm.md).
+/// Cycles from the last submission's field; the second where the first has found more (docs/explanation/algorithm.md).
 inline constexpr Cycles kWarmCycles{1, 2};
 
 /// Cells within `radius` of (i, j).
@@ -53,14 +50,12 @@ struct FieldArrays {
   float *clearance, *start_psi, *psi;
 };
 
-/// The stages on one executor, and their memory. A call returns false, or a quality that is not `done`, where the
-/// executor has failed.
+/// The stages on one executor, and their memory. False, or a quality that is not `done`: the executor has failed.
 template <class Executor>
 class Pass {
  public:
   Pass(Executor& executor, std::int32_t max_side)
       : executor_(executor),
-        warp_(take<float>(max_side)),
         correction_(take<float>(max_side)),
         rows_away_(take<std::int32_t>(max_side)),
         envelope_(take<std::int32_t>(max_side)),
@@ -84,8 +79,7 @@ class Pass {
     if (!executor_.begin()) return false;
     executor_.copy(grid.cells(), host_.occupants, stages_.occupants);
     executor_.copy(count, host_.movers, stages_.movers);
-    executor_.for_each_cell(grid.side, grid.side, WarpOfEachCell{grid, warping, warp_});
-    executor_.for_each_cell(count, 1, PredictEachMover{grid, warping, warp_, stages_.movers, stages_.marks});
+    executor_.for_each_cell(count, 1, PredictEachMover{grid, warping, stages_.movers, stages_.marks});
     executor_.for_each_cell(grid.side, grid.side, MarkEachCell{grid, stages_.marks, count, stages_.occupants});
     executor_.copy(grid.cells(), stages_.occupants, host_.occupants);
     executor_.copy(count, stages_.marks, host_.marks);
@@ -112,8 +106,7 @@ class Pass {
 
   /// The start field, by the host, unless it is there.
   bool start(Grid grid, std::int32_t goal) noexcept {
-    if (started_ == goal) return true;
-    started_ = start_.settle(grid, goal, host_.clearance, host_.start_psi) ? goal : kNoCell;
+    if (started_ != goal) started_ = start_.settle(grid, goal, host_.clearance, host_.start_psi) ? goal : kNoCell;
     return started_ == goal;
   }
 
@@ -189,7 +182,7 @@ class Pass {
 
   Executor& executor_;
   FieldArrays stages_{}, host_{};
-  float *warp_, *correction_;
+  float* correction_;
   std::int32_t *rows_away_, *envelope_, *stretch_;
   Counted* pits_;
   StartField start_;

@@ -14,7 +14,23 @@ constexpr std::int32_t kTautRounds = 4;
 constexpr float kBandReach = 5.0F;
 constexpr float kGive = 0.8F;
 
-std::int32_t cell_of(float x) { return static_cast<std::int32_t>(x); }
+/// Rounded down without std::floor, which is a call on some processors.
+std::int32_t cell_of(double x) {
+  const auto towards_zero = static_cast<std::int32_t>(x);
+  return x < towards_zero ? towards_zero - 1 : towards_zero;
+}
+
+Vec2 place_of(Point p) { return {static_cast<double>(p.x), static_cast<double>(p.y)}; }
+
+/// Whether all cells of the box that two places span are free, and with them the chord between the places.
+bool is_box_free(Grid grid, const float* clearance, Vec2 a, Vec2 b) {
+  for (std::int32_t j = cell_of(std::min(a.y, b.y)); j <= cell_of(std::max(a.y, b.y)); ++j) {
+    for (std::int32_t i = cell_of(std::min(a.x, b.x)); i <= cell_of(std::max(a.x, b.x)); ++i) {
+      if (!grid.holds(i, j) || !(clearance[grid.at(i, j)] > 0.0F)) return false;
+    }
+  }
+  return true;
+}
 
 /// Turns at a point's neighbours reach two points to either side: every third point may move in any order.
 class Band {
@@ -33,11 +49,7 @@ class Band {
   }
   [[nodiscard]] double length() const noexcept {
     double sum = 0.0;
-    for (std::int32_t k = 0; k + 1 < count_; ++k) {
-      const double x = static_cast<double>(at(k + 1).x) - static_cast<double>(at(k).x);
-      const double y = static_cast<double>(at(k + 1).y) - static_cast<double>(at(k).y);
-      sum += std::sqrt(x * x + y * y);
-    }
+    for (std::int32_t k = 0; k + 1 < count_; ++k) sum += distance(place_of(at(k)), place_of(at(k + 1)));
     return sum;
   }
 
@@ -47,7 +59,8 @@ class Band {
   /// Moves by its neighbours' tension and the clearance force: the whole way, half, a quarter of it, or not at all.
   void move(std::int32_t k, float reach) noexcept {
     const Point here = at(k);
-    const Point force = clearance_force(clearance(cell_of(here.x), cell_of(here.y)), slope(here), reach);
+    const Vec2 place = place_of(here);
+    const Point force = clearance_force(clearance(cell_of(place.x), cell_of(place.y)), slope(here), reach);
     const Point pull = tension(at(k - 1), here, at(k + 1));
     for (float give = kGive; give > 0.15F * kGive; give *= 0.5F) {
       const Point there = dragged(here, pull, force, give);
@@ -58,19 +71,14 @@ class Band {
     return grid_.holds(i, j) ? clearance_[grid_.at(i, j)] : 0.0F;
   }
   [[nodiscard]] Point slope(Point p) const noexcept {
-    const std::int32_t i = cell_of(p.x), j = cell_of(p.y);
+    const Vec2 place = place_of(p);
+    const std::int32_t i = cell_of(place.x), j = cell_of(place.y);
     return {0.5F * (clearance(i + 1, j) - clearance(i - 1, j)), 0.5F * (clearance(i, j + 1) - clearance(i, j - 1))};
   }
   [[nodiscard]] bool stays_free(std::int32_t k, Point there) const noexcept {
-    return there.x >= 0.0F && there.y >= 0.0F && is_box_free(at(k - 1), there) && is_box_free(there, at(k + 1));
-  }
-  [[nodiscard]] bool is_box_free(Point a, Point b) const noexcept {
-    const auto [i0, i1] = std::minmax({cell_of(a.x), cell_of(b.x)});
-    const auto [j0, j1] = std::minmax({cell_of(a.y), cell_of(b.y)});
-    for (std::int32_t j = j0; j <= j1; ++j)
-      for (std::int32_t i = i0; i <= i1; ++i)
-        if (!(clearance(i, j) > 0.0F)) return false;
-    return true;
+    const Vec2 place = place_of(there);
+    return place.x >= 0.0 && place.y >= 0.0 && is_box_free(grid_, clearance_, place_of(at(k - 1)), place) &&
+           is_box_free(grid_, clearance_, place, place_of(at(k + 1)));
   }
   /// The sharpest turn's cosine at point k and beside it, were k `there`.
   [[nodiscard]] float sharpest_with(std::int32_t k, Point there) const noexcept {
@@ -138,24 +146,13 @@ class Line {
  private:
   [[nodiscard]] Vec2 point(std::int32_t k) const {
     if (k == 0) return from_;
-    return k == last_ ? to_ : Vec2{static_cast<double>(points_[k].x), static_cast<double>(points_[k].y)};
+    return k == last_ ? to_ : place_of(points_[k]);
   }
 
   const Point* points_;
   std::int32_t last_;
   Vec2 from_, to_;
 };
-
-/// Whether all cells of the box that two places span are free, and with them the chord between the places.
-bool is_box_free(Grid grid, const float* clearance, Vec2 a, Vec2 b) {
-  const auto cell_of = [](double x) { return static_cast<std::int32_t>(std::floor(x)); };
-  for (std::int32_t j = cell_of(std::min(a.y, b.y)); j <= cell_of(std::max(a.y, b.y)); ++j) {
-    for (std::int32_t i = cell_of(std::min(a.x, b.x)); i <= cell_of(std::max(a.x, b.x)); ++i) {
-      if (!grid.holds(i, j) || !(clearance[grid.at(i, j)] > 0.0F)) return false;
-    }
-  }
-  return true;
-}
 
 /// A cell's successor; itself where the index leads nowhere.
 std::int32_t next_of(Grid grid, const std::uint8_t* index, std::int32_t c) {

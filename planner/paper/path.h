@@ -20,9 +20,8 @@ JAYWALK_CELL Point tension(Point before, Point here, Point after) {
 /// Force of the clearance potential (1 - D/reach)^2 reach/4 below `reach` cells of clearance D, zero
 /// above: sideways, away from what is near. `slope` is the gradient of D.
 ///
-/// The paper's F is a difference of 1/(1 - phi) = e^psi (equation force): with a converged field it
-/// grows by e^k a cell and swamps the tension. ln of it, psi, falls steadily along the way and
-/// drags points along the band; the clearance acts across it, which is what is wanted.
+/// The paper's F is a difference of 1/(1 - phi) = e^psi (equation force), which grows by e^k a cell and swamps the
+/// tension; ln of it, psi, drags points along the band. The clearance acts across it.
 JAYWALK_CELL Point clearance_force(float clearance, Point slope, float reach) {
   if (clearance >= reach) return {0.0F, 0.0F};
   const float strength = 0.5F * (1.0F - clearance / reach);
@@ -38,8 +37,7 @@ JAYWALK_CELL float turn_cosine(Point before, Point here, Point after) {
   return (ax * bx + ay * by) / std::sqrt((ax * ax + ay * ay) * (bx * bx + by * by));
 }
 
-/// The point moved by its resultant force (equations resultant and drag). A `give` of 1 would take a
-/// straight band to rest in one step; below 1 it does not swing.
+/// The point moved by its resultant force (equations resultant and drag). With a `give` below 1 it does not swing.
 JAYWALK_CELL Point dragged(Point here, Point pull, Point force, float give) {
   return {here.x + give * (pull.x + force.x), here.y + give * (pull.y + force.y)};
 }
@@ -47,17 +45,15 @@ JAYWALK_CELL Point dragged(Point here, Point pull, Point force, float give) {
 /// Most cells that a raw path may have; a longer one is cut there, and leads towards the goal.
 inline constexpr std::int32_t kMaxBandPoints = 16384;
 
-/// Pulls the band taut; points before `first` and the last stay. Points in cells from the window's low corner; `raw`
-/// has room for as many.
+/// Pulls the band taut; points (in cells) before `first` and the last stay. `raw` has room for as many.
 ///
 /// Invariants of a move, whatever the force:
 /// - Free cells: all cells of the box that two neighbouring points span are free, so the segment between is in free
 ///   cells. The raw path begins so, since its diagonal steps lie between two free cells.
 /// - No turning back: the sharpest turn, at the point and at its neighbours, is at most 45 degrees, or no sharper than
 ///   before.
-/// The band is no longer than the raw path: where what is near has made it so, tension alone draws it in, and where
-/// that takes too long, tension alone acts on the raw path. Tension never lengthens: a point goes towards the middle of
-/// its neighbours.
+/// The band is no longer than the raw path: where clearance has made it so, tension alone, which never lengthens, draws
+/// it in, and where that takes too long, tension alone acts on the raw path.
 void pull(Grid grid, const float* clearance, std::span<Point> points, std::span<Point> raw,
           std::int32_t first) noexcept;
 

@@ -28,15 +28,13 @@ JAYWALK_CELL float coupling(float psi_here, float psi_neighbour, bool neighbour_
   return neighbour_exists ? a : 0.0F;
 }
 
-/// Share that the neighbour takes of this cell, by the share that this cell takes of it: exp(d)/4 one way is exp(-d)/4
-/// the other.
+/// Share that the neighbour takes of this cell: exp(d)/4 one way is exp(-d)/4 the other.
 JAYWALK_CELL float coupling_back(float coupling_there) {
   const float a = 0.0625F / (coupling_there > 0.0F ? coupling_there : 1.0F);
   return coupling_there > 0.0F ? a : 0.0F;
 }
 
-/// Weight of a cell's equation in its block's, exp(-2 (psi - base)) times what it was divided by; 0 where it
-/// has no equation.
+/// Weight of a cell's equation in its block's: exp(-2 (psi - base)) times what it was divided by; 0 without equation.
 JAYWALK_CELL float block_weight(bool has_equation, float diagonal, float psi, float base) {
   const float rise = has_equation ? psi - base : 0.0F;
   const float weight = diagonal * cell::exp(-2.0F * rise);
@@ -101,16 +99,14 @@ struct BesideCell {
 
 JAYWALK_CELL float barred_if(bool outside) { return outside ? cell::kUnreachable : 0.0F; }
 
-/// Adds infinity where there is no neighbour instead of asking first, so that many cells go at once: psi may be read a
-/// row and a cell beyond either end.
+/// Adds infinity where there is no neighbour, so that many cells go at once: psi may be read beyond (take_rows).
 JAYWALK_CELL BesideCell beside_cell(const Grid& grid, const float* psi, std::int32_t i, std::int32_t j) {
   const std::int32_t c = grid.at(i, j), last = grid.side - 1;
   return {psi[c + 1] + barred_if(i == last), psi[c - 1] + barred_if(i == 0), psi[c + grid.side] + barred_if(j == last),
           psi[c - grid.side] + barred_if(j == 0)};
 }
 
-/// Sets up the cells from psi: couplings to the next cell east and north. What is not free or not joined to the goal is
-/// uncoupled and 0.
+/// Couplings to the next cell east and north, from psi. What is not joined to the goal is uncoupled and 0.
 struct CoupleAhead {
   Level cells;
 
@@ -135,8 +131,7 @@ struct CoupleBack {
   }
 };
 
-/// Takes the goal out of the unknowns: what its neighbours take of it (v = 1) becomes their source, and it
-/// is uncoupled with source 1. One visit.
+/// Takes the goal out of the unknowns: what its neighbours take of it (v = 1) becomes their source. One visit.
 struct SettleGoal {
   Level cells;
   std::int32_t goal;
@@ -224,8 +219,7 @@ struct RebasePsi {
   }
 };
 
-/// Potential above the start field, by cell: where the next submission's solver begins. A
-/// cell that is covered for a while keeps what it had, so that a mover passing leaves no scar.
+/// Potential above the start field: where the next submission's solver begins. A covered cell keeps what it had.
 struct KeepCorrection {
   const float *start, *psi;
   float* correction;
@@ -304,9 +298,8 @@ JAYWALK_CELL Step step_of(std::uint8_t index) {
   return index < 4 ? straight : (index < kHere ? diagonal : Step{0, 0});
 }
 
-/// Equation index-matrix with eight neighbours for its four: the neighbour with the lowest potential, a
-/// diagonal one only between two free cells, so that no corner is cut. Four would do to arrive; with
-/// eight the raw path has half the stairs, and less is left to the band.
+/// Equation index-matrix with eight neighbours for its four, which halve the raw path's stairs: the neighbour with the
+/// lowest potential, a diagonal one only between two free cells, so that no corner is cut.
 struct IndexOfEachCell {
   Grid grid;
   const float* psi;  ///< may be read beyond the border (take_rows)

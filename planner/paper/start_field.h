@@ -37,8 +37,7 @@ JAYWALK_CELL std::int32_t cells_to_border(std::int32_t i, std::int32_t j, std::i
   return (x < y ? x : y) + 1;
 }
 
-/// Exact Euclidean distances by columns first, then rows: rows from each cell of a strip of columns to the nearest
-/// occupied cell of its column.
+/// Rows from each cell of a strip of columns to the nearest occupied cell of its column.
 struct NearestInColumns {
   static constexpr std::int32_t kColumns = 16;  ///< of a strip: a line of a cache; divides every side
   Grid grid;
@@ -151,9 +150,8 @@ class StartGraph {
   std::int32_t width_ = 0;
 };
 
-/// The start field of one goal. A step costs what -ln u would rise by in a passage as wide as the one it is in; the sum
-/// is an estimate of psi, descends to the goal from everywhere, and keeps away from walls. Memory for grids up to
-/// `max_side` cells in the constructor.
+/// The start field of one goal: an estimate of psi that descends to the goal from everywhere. A step costs what -ln u
+/// would rise by in a passage as wide as the one it is in. Memory for grids up to `max_side` cells in the constructor.
 class StartField {
  public:
   explicit StartField(std::int32_t max_side);

@@ -11,10 +11,8 @@
 #include "planner/tracking/tuning.h"
 
 namespace jaywalk::motion {
-// How often walkers turn or stop where nothing makes them, and how many newcomers that stand walk off: learned while
-// driving.
-
-/// Rates with a prior worth half a minute of looking at one walker: cautious until something else is seen.
+/// Rates at which walkers turn or stop where nothing makes them and standing newcomers walk off, learned while driving.
+/// The prior is worth half a minute of looking at one walker: cautious until something else is seen.
 struct TurningModel {
   static constexpr float kPriorS = 30.0F, kPriorTurnsHz = 0.01F, kPriorStopsHz = 0.03F;
   float watched_s = 0.0F, turns = 0.0F, stops = 0.0F;

@@ -15,7 +15,6 @@ namespace jaywalk::motion {
 /// What a new scan has shown.
 struct Seen {
   Time now{};
-  Time stamp = kNever;  ///< the scan's
   Pose2 map_from_robot{};
   std::span<const Track> tracks;
   std::span<const StandingPedestrian> standing;

@@ -71,14 +71,12 @@ struct SeenDisc {
 /// beyond 1.2 rad (a disc of 0.5 m at 0.9 m) are taken for that: so near, most things are not round.
 [[nodiscard]] SeenDisc seen_disc(double mean_range_m, double angle_rad) noexcept;
 
-/// The disc of `radius_m` that is seen from one side on, over `angle_rad` > 0; its points' mean lies `mean_range_m`
-/// away and `mean_bearing_rad` from that side.
+/// The disc of `radius_m` that is seen from one side on, over `angle_rad` > 0; the mean's bearing is from that side.
 [[nodiscard]] SeenDisc seen_side(double radius_m, double angle_rad, double mean_range_m,
                                  double mean_bearing_rad) noexcept;
 
-/// The raw scans of the last second, of all scanners: whether a place was free a moment ago, whatever the map makes of
-/// it. A thing that walks stands where beams passed; one that only comes into view, or shows another side, does not.
-/// Memory in the constructor. Thread: the loop's.
+/// The raw scans of the last second, of all scanners. A thing that walks stands where beams passed; one that only comes
+/// into view, or shows another side, does not. Memory in the constructor. Thread: the loop's.
 class PastScans {
  public:
   PastScans() : kept_(std::make_unique<std::array<Kept, kMost>>()) {}

@@ -56,8 +56,7 @@ struct Sweep {
 /// Nearer than this (m) a laser sees only its own robot: masts, cables, the rim of its own window.
 inline constexpr double kNearestSeenM = 0.2;
 
-/// The share of its reach within which a scanner sees all: makers give the reach for what is bright. Chosen:
-/// docs/explanation/decisions/beams.md.
+/// Share of its reach within which a scanner sees all, not bright things alone (docs/explanation/decisions/beams.md).
 inline constexpr double kSeesAll = 0.8;
 
 /// Beams beyond kMaxBeams are left out.
@@ -72,13 +71,12 @@ using ScanPoints = FixedVector<ScanPoint, kMaxBeams>;
 /// chord's direction is taken at half the turn, which is exact for constant speeds up to (w t)^2 / 24.
 [[nodiscard]] Pose2 moved_by(const Twist2& twist, double after_s) noexcept;
 
-/// Turns beams into points. A scanner's beams look the same way scan after scan: their directions are worked out when
-/// they change, by sines and cosines that would take a tenth of what seeing takes. Thread: the loop's.
+/// Turns beams into points. Directions of beams are worked out when they change: sines and cosines would take a tenth
+/// of perception's time. Thread: the loop's.
 class ScanProjection {
  public:
-  /// Fills `out` with the scan's hits in the order of the beams; beams without a return are left out, and all of
-  /// them where the angles are no fan. A sweep that takes
-  /// time is put right: each beam starts from where a robot moving with `twist` stood when that beam was measured.
+  /// Fills `out` with the scan's hits in the order of the beams; with none where the angles are no fan. A sweep that
+  /// takes time is put right: each beam starts from where a robot moving with `twist` stood when it was measured.
   void project(const LaserScan& scan, const Pose2& robot_from_laser, const Twist2& twist, ScanPoints& out) noexcept;
   /// The same for beams without a return (LaserScan::found_nothing): the points `range_m` along them.
   void project_empty(const LaserScan& scan, const Pose2& robot_from_laser, const Twist2& twist, double range_m,
@@ -100,6 +98,7 @@ class ScanProjection {
 /// scanner. Tells that from a clock that was set back: such a scan goes on from its own scanner's last.
 class ScanOrder {
  public:
+  ScanOrder() noexcept { own_.fill(kNever); }
   /// Once a scan: how much earlier (s, 0 or less) it was taken than the newest of another scanner.
   [[nodiscard]] double behind_s(const LaserScan& scan) noexcept {
     Time& own = own_[scan.scanner];
@@ -114,17 +113,9 @@ class ScanOrder {
 
  private:
   static constexpr Duration kMost = std::chrono::seconds(1);  ///< no sweep takes longer
-  std::array<Time, kMostScanners> own_ = filled();
+  std::array<Time, kMostScanners> own_;
   Time newest_ = kNever, before_ = kNever;
-
-  static constexpr std::array<Time, kMostScanners> filled() noexcept {
-    std::array<Time, kMostScanners> times{};
-    times.fill(kNever);
-    return times;
-  }
 };
-
-// A scan cut where it jumps.
 
 /// A run of neighbouring points that are one thing: points [first, last] of the scan.
 struct Segment {
@@ -133,8 +124,7 @@ struct Segment {
 
 using Segments = FixedVector<Segment, kMaxBeams>;  ///< never full: a segment has a point, and a beam one at most
 
-/// A scan all round has no end: its list of points is turned so that it begins at a jump, and nothing is cut in two
-/// where the scanner begins its turn.
+/// Turns the points of a scan all round so that they begin at a jump, and nothing is cut in two.
 void begin_at_a_jump(const Sweep& sweep, ScanPoints& points) noexcept;
 
 /// Cuts the scan where neighbouring points are farther apart than a surface explains: by the range, and by the steps
@@ -142,8 +132,7 @@ void begin_at_a_jump(const Sweep& sweep, ScanPoints& points) noexcept;
 void cut_at_jumps(const ScanPoints& points, const Sweep& sweep, Segments& out) noexcept;
 
 /// Unreliable first scans: taken from a robot that drove and was thought to stand, since scans alone know no speed
-/// before the third. Their sweeps were not put right and their poses are off, so that for a second everything seems to
-/// walk a little.
+/// before the third. For a second everything then seems to walk a little.
 class FirstScans {
  public:
   /// Once a scan, with the robot's speed as it is thought to be at `now`. True while nothing can be said to walk: for a

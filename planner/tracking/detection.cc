@@ -47,8 +47,10 @@ Detection detection_of(const Segment& segment, const ScanPoints& points, const P
   const double low = angle_to(in_map.position[segment.first] - laser, along, sweep);
   const double high = angle_to(in_map.position[segment.last] - laser, along, sweep);
   const SeenDisc disc = seen_disc(range, low + high);
+  const Ends ends = ends_of(segment, points, sweep);
   const Vec2 chord_middle = (in_map.position[segment.first] + in_map.position[segment.last]) * 0.5;
   return {.segment = segment,
+          .beams = {points[segment.first].beam, points[segment.last].beam},
           .centre_in_map = mean + along * (disc.range_m - range),
           .radius_m = std::max(disc.radius_m, 0.5 * (width + spacing)),
           .mean_in_map = mean,
@@ -61,21 +63,16 @@ Detection detection_of(const Segment& segment, const ScanPoints& points, const P
           .outline_in_map = outline_of(segment, in_map),
           .along = along,
           .high_side = Vec2{-along.y, along.x} * (across < 0.0 ? -1.0 : 1.0),
+          .low_end = ends.low,
+          .high_end = ends.high,
           .bulges = dot(chord_middle - mean, along) > kBulge * disc.radius_m};
 }
 
-struct GroundShares {
-  double wall = 0.0, free = 0.0;
-};
-
-GroundShares shares_of(const Segment& segment, const PointsInMap& in_map) {
-  double wall = 0.0, free = 0.0;
-  for (std::uint32_t k = segment.first; k <= segment.last; ++k) {
-    wall += in_map.ground[k] == Ground::kWall ? 1.0 : 0.0;
-    free += in_map.ground[k] == Ground::kFree ? 1.0 : 0.0;
-  }
+/// Share of the segment's points that lie on ground of this kind.
+double share_on(Ground ground, const Segment& segment, const PointsInMap& in_map) {
   const double count = segment.last - segment.first + 1;
-  return {wall / count, free / count};
+  const auto* const first = in_map.ground.data() + segment.first;
+  return static_cast<double>(std::count(first, in_map.ground.data() + segment.last + 1, ground)) / count;
 }
 
 /// The item before `k` of a list, or after it by `step` 1, round the list's ends where the scan goes all round; the
@@ -91,13 +88,6 @@ End end_at(const ScanPoints& points, const Sweep& sweep, std::size_t end, std::p
   const std::size_t next = beside(end, step, points.size(), sweep);
   if (next == points.size() || !sweep.neighbours(points[end].beam, points[next].beam)) return End::kUnknown;
   return points[next].range_m <= points[end].range_m ? End::kHidden : End::kSeen;
-}
-
-void note_ends(const ScanPoints& points, const Sweep& sweep, Detection& detection) {
-  detection.beams = {points[detection.segment.first].beam, points[detection.segment.last].beam};
-  const Ends ends = ends_of(detection.segment, points, sweep);
-  detection.low_end = ends.low;
-  detection.high_end = ends.high;
 }
 
 void note_times(const ScanPoints& points, const Sweep& sweep, Detection& detection) {
@@ -180,11 +170,9 @@ void find_detections(const ScanPoints& points, const PointsInMap& in_map, const 
   const Pieces pieces{points, in_map, segments, sweep};
   for (std::size_t s = 0; s < segments.size(); ++s) {
     if (!body_sized(pieces, s)) continue;
-    const GroundShares shares = shares_of(segments[s], in_map);
     Detection detection = detection_of(segments[s], points, in_map, sweep, laser);
-    detection.on_wall = shares.wall > kMostWall;
-    detection.in_free_space = shares.free > kMostFree;
-    note_ends(points, sweep, detection);
+    detection.on_wall = share_on(Ground::kWall, segments[s], in_map) > kMostWall;
+    detection.in_free_space = share_on(Ground::kFree, segments[s], in_map) > kMostFree;
     note_times(points, sweep, detection);
     if (pieces.width(s) > kPieceM && !detection.ends()) continue;
     if (detection.on_wall && !detection.stands_alone()) continue;

@@ -50,7 +50,8 @@ void stand_on(ModeState& s, double dt) {
   s.covariance = {.pp = s.covariance.pp + kShuffle * dt, .pv = 0.0, .vv = kStandsMps * kStandsMps};
 }
 
-void walk_on(ModeState& s, double dt, double accel) {
+/// On by `dt`, or back below 0, which undoes it where there is no acceleration.
+void walk_on(ModeState& s, double dt, double accel = 0.0) {
   AxisCovariance& p = s.covariance;
   s.position = s.position + s.velocity * dt;
   const cell::CovarianceGrowth<double> growth = cell::covariance_growth(p.pv, p.vv, dt);
@@ -58,9 +59,6 @@ void walk_on(ModeState& s, double dt, double accel) {
   p.pv += growth.pv + accel * dt * dt / 2.0;
   p.vv += accel * dt;
 }
-
-/// On by part of a sweep, or back below 0, which undoes it: nobody turns within it.
-void glide(ModeState& s, double dt) { walk_on(s, dt, 0.0); }
 
 /// Minus the logarithm of how likely a measured position is, but for a constant: two axes.
 double negative_log_likelihood(const ModeState& s, Vec2 measured, double noise_m2) {
@@ -133,10 +131,10 @@ void ImmFilter::correct(Track& track, Vec2 measured, double std_m, double late_s
   std::array<double, kCount> unlikely{};
   for (std::size_t k = 0; k < kCount; ++k) {
     ModeState& s = modes_[k];
-    glide(s, late_s);
+    walk_on(s, late_s);  // straight: nobody turns within part of a sweep
     unlikely[k] = negative_log_likelihood(s, measured, std_m * std_m);
     jaywalk::correct(s.position, s.velocity, s.covariance, measured, std_m * std_m);
-    glide(s, -late_s);
+    walk_on(s, -late_s);
   }
   const double least = *std::min_element(unlikely.begin(), unlikely.end());
   double sum = 0.0;
@@ -149,7 +147,7 @@ void ImmFilter::correct(Track& track, Vec2 measured, double std_m, double late_s
 }
 
 void ImmFilter::date_back(Track& track, double late_s) noexcept {
-  for (ModeState& s : modes_) glide(s, -late_s);
+  for (ModeState& s : modes_) walk_on(s, -late_s);
   report(track);
 }
 

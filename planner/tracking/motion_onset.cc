@@ -57,7 +57,7 @@ bool covers(const Outline& outline, Vec2 place, double within) {
 
 /// Of the points seen at the anchor, the half that lies behind on the target's way and that it has left. Beams that end
 /// on the target itself say nothing.
-OldPlace old_place(const MotionEvidence& e, const Surroundings& around) {
+OldPlace old_place(const Target& e, const Surroundings& around) {
   OldPlace old;
   const double tolerance = wall_noise_m(distance(around.laser_in_map(), e.position()));
   const Outline& outline = e.onset.anchor_outline;  // in the order of the beams, so that it has two ends
@@ -75,7 +75,7 @@ OldPlace old_place(const MotionEvidence& e, const Surroundings& around) {
 
 /// A piece of wall seen at a slant seems to slide along the wall when the robot drives; beams pass over where it was,
 /// too.
-bool slides_along_itself(const MotionEvidence& e, Vec2 laser) {
+bool slides_along_itself(const Target& e, Vec2 laser) {
   const Outline& outline = e.appearance.outline_in_map;
   const Vec2 chord = outline.back() - outline[0], way = e.way(), beam = e.position() - laser;
   const bool slanted = std::fabs(dot(chord, beam)) > kSlant * norm(chord) * norm(beam);
@@ -85,7 +85,7 @@ bool slides_along_itself(const MotionEvidence& e, Vec2 laser) {
 
 /// Whether the walk, less the change of the target's width, is longer than half that width: then the target's middle
 /// has passed the place of its edge. Noise above kQuietNoise rules it out: a target that changes its shape has as much.
-bool left_its_width(const MotionEvidence& e, const StraightFit& fit) {
+bool left_its_width(const Target& e, const StraightFit& fit) {
   const Outline& outline = e.appearance.outline_in_map;
   const double half_m = 0.5 * distance(outline[0], outline.back());
   return e.appearance.noise < kQuietNoise && fit.length_m - fit.width_change_m > std::max(kStandsWithinM, half_m);
@@ -95,7 +95,7 @@ bool left_its_width(const MotionEvidence& e, const StraightFit& fit) {
 /// laser sees one leg, then the other) needs two witnesses of the ground: the map had the new place free and beams now
 /// pass over the old one, or beams passed over the new place a moment ago (`was_free`). Where the map did not have the
 /// new place free, or the target is partly hidden, the walk must be straighter.
-bool walks(const MotionEvidence& e, const StraightFit& fit, const Surroundings& around, bool was_free) {
+bool walks(const Target& e, const StraightFit& fit, const Surroundings& around, bool was_free) {
   if (fit.longest_hop_m > kHopM) return false;
   const OldPlace old = old_place(e, around);
   if (old.taken || slides_along_itself(e, around.laser_in_map())) return false;
@@ -106,13 +106,13 @@ bool walks(const MotionEvidence& e, const StraightFit& fit, const Surroundings& 
   return was_free && one_line && left_its_width(e, fit);
 }
 
-bool far_from_anchor(const MotionEvidence& e, const StraightFit& fit) {
+bool far_from_anchor(const Target& e, const StraightFit& fit) {
   const double least_m = steady(e, fit) ? least_steady_m(e, fit) : kStandsWithinM;
   return norm(e.way()) > std::max(least_m, kGoneSigmas * std::sqrt(e.estimate.track.covariance.pp));
 }
 
 /// Fixed to the robot: masts, cables, a rider's feet that no turn has told from walls yet.
-bool rides_along(const MotionEvidence& e, const Surroundings& around) {
+bool rides_along(const Target& e, const Surroundings& around) {
   const double away_m = norm(inverse(around.map_from_laser) * e.position());
   const Vec2 in_first = inverse(around.map_from_first) * e.position();
   return away_m < kRidesWithinM && distance(in_first, e.onset.anchor_in_laser) < kRidesShare * norm(e.way());
@@ -129,13 +129,13 @@ bool filter_walks(const Estimate& estimate) {
 
 /// Whether the filter has the target walk, and one thing more supports it: its place was free a moment ago, the walk is
 /// steady, or its speed is large against the speed's standard deviation.
-bool beyond_doubt(const MotionEvidence& e, const StraightFit& fit, bool was_free) {
+bool beyond_doubt(const Target& e, const StraightFit& fit, bool was_free) {
   if (!filter_walks(e.estimate)) return false;
   const Track& track = e.estimate.track;
   return was_free || steady(e, fit) || norm(track.velocity_in_map) > kSpeedSigmas * std::sqrt(track.covariance.vv);
 }
 
-MotionOnset by_all_positions(const MotionEvidence& e, const Surroundings& around, bool was_free) {
+MotionOnset by_all_positions(const Target& e, const Surroundings& around, bool was_free) {
   const StraightFit fit = e.onset.positions.fit();
   if (fit.positions < (was_free ? kFewestWasFree : kFewestPositions) || !far_from_anchor(e, fit) ||
       !beyond_doubt(e, fit, was_free))
@@ -147,7 +147,7 @@ MotionOnset by_all_positions(const MotionEvidence& e, const Surroundings& around
 /// A target that stood has walked only since: its newest positions alone, after others that it stood at. Both sides of
 /// a body must have gone along, its widths no farther apart than a beam explains. Its noise has just grown, since no
 /// filter foretold the first step.
-bool starts(const MotionEvidence& e, const Surroundings& around) {
+bool starts(const Target& e, const Surroundings& around) {
   const Appearance& seen = e.appearance;
   if (!seen.whole || !as_wide_as_a_body(seen.arc_m) || seen.noise > kQuietNoise || !filter_walks(e.estimate))
     return false;
@@ -159,29 +159,21 @@ bool starts(const MotionEvidence& e, const Surroundings& around) {
   return !slides_along_itself(e, around.laser_in_map());
 }
 
-void anchor_target(Target& target, const Pose2& map_from_laser, Time now) {
-  anchor_here(target.onset, target.estimate.track.position_in_map, target.appearance, map_from_laser, now);
-}
-
-void judge_moving(Target& target, const Surroundings& around, Time now) {
+void judge_moving(Target& target, const Surroundings& around) {
   Time& slow_since = target.onset.slow_since;
   if (norm(target.estimate.track.velocity_in_map) >= kStoppedMps) {
     slow_since = kNever;
     return;
   }
-  if (slow_since == kNever) slow_since = now;
-  if (now - slow_since < kSlowFor) return;
+  if (slow_since == kNever) slow_since = around.now;
+  if (around.now - slow_since < kSlowFor) return;
   target.estimate.track.moving = false;
-  anchor_target(target, around.map_from_first, now);
+  anchor_here(target, around.map_from_first, around.now);
   target.onset.anchored = std::exchange(slow_since, kNever);  // it has stood here for as long as it was slow
 }
 
-void note_onset(OnsetHistory& onset, MotionOnset seen) {
-  if (seen == MotionOnset::kNone) {
-    onset.onsets = 0;
-  } else {
-    onset.onsets += seen == MotionOnset::kCertain ? kOnsetScans : 1;
-  }
+void note_onset(std::uint32_t& onsets, MotionOnset seen) {
+  onsets = seen == MotionOnset::kNone ? 0 : onsets + (seen == MotionOnset::kCertain ? kOnsetScans : 1);
 }
 
 void begin_moving(Target& target) {
@@ -209,17 +201,17 @@ void note_arrival(Target& target, const Surroundings& around) {
   if (mean > kWasFree) target.existence.pedestrian.came();
 }
 
-void judge_standing(Target& target, const Surroundings& around, Time now) {
-  if (target.existence.misses == 0) note_onset(target.onset, motion_onset(target, around));
+void judge_standing(Target& target, const Surroundings& around) {
+  if (target.existence.misses == 0) note_onset(target.onset.onsets, motion_onset(target, around));
   note_arrival(target, around);
   if (target.onset.onsets >= kOnsetScans) return begin_moving(target);
-  const Duration stood = now - target.onset.anchored;
-  if (stood > kSettleAfter && norm(target.motion().way()) < kStandsWithinM) target.existence.settled = true;
-  if (stood > kMayGoOnWithin) anchor_target(target, around.map_from_first, now);  // creeping is not walking
+  const Duration stood = around.now - target.onset.anchored;
+  if (stood > kSettleAfter && norm(target.way()) < kStandsWithinM) target.existence.settled = true;
+  if (stood > kMayGoOnWithin) anchor_here(target, around.map_from_first, around.now);  // creeping is not walking
 }
 
 /// Not called moving, and no wall: a pedestrian that goes along beside the robot.
-bool came_along(const MotionEvidence& e) {
+bool came_along(const Target& e) {
   return e.appearance.solid() && e.appearance.whole && e.onset.came_to_free_space() &&
          norm(e.way()) > 2.0 * kPersonRadiusM;
 }
@@ -227,31 +219,29 @@ bool came_along(const MotionEvidence& e) {
 }  // namespace
 
 MotionOnset motion_onset(const Target& target, const Surroundings& around) noexcept {
-  const MotionEvidence e = target.motion();
   if (target.existence.seen_share <= kMostlySeen) return MotionOnset::kNone;
   const auto through = seen_through(target, around);
   if (through.value_or(1.0) < kSeenThrough) return MotionOnset::kNone;
-  if (rides_along(e, around)) return MotionOnset::kNone;
-  if (starts(e, around)) return MotionOnset::kCertain;  // what is taken for a wall must have stood
+  if (rides_along(target, around)) return MotionOnset::kNone;
+  if (starts(target, around)) return MotionOnset::kCertain;  // what is taken for a wall must have stood
   return target.appearance.on_wall ? MotionOnset::kNone
-                                   : by_all_positions(e, around, through.value_or(0.0) >= kWasFree);
+                                   : by_all_positions(target, around, through.value_or(0.0) >= kWasFree);
 }
 
-void judge_motion(Target& target, const Surroundings& around, Time now) noexcept {
+void judge_motion(Target& target, const Surroundings& around) noexcept {
   if (target.existence.given) return;
   if (target.estimate.track.moving) {
-    judge_moving(target, around, now);
+    judge_moving(target, around);
   } else {
-    judge_standing(target, around, now);
+    judge_standing(target, around);
   }
-  if (target.estimate.track.moving || (target.confirmed() && came_along(target.motion())))
-    target.existence.pedestrian.walks();
+  if (target.estimate.track.moving || (target.confirmed() && came_along(target))) target.existence.pedestrian.walks();
 }
 
 void forget_walk(Target& target, const Pose2& map_from_laser, Time now) noexcept {
   target.onset.positions.clear();
   target.onset.onsets = 0;
-  anchor_target(target, map_from_laser, now);
+  anchor_here(target, map_from_laser, now);
 }
 
 }  // namespace jaywalk

@@ -7,9 +7,7 @@
 #include "planner/tracking/target.h"
 
 namespace jaywalk {
-// What a body is judged by besides its own path.
-
-/// As a scan has it; neither is kept beyond it.
+/// What a target is judged by besides its own path, at one scan.
 struct Surroundings {
   const LineOfSight& sight;  ///< of this scan
   const PastScans& past;     ///< the scans before it
@@ -42,7 +40,7 @@ enum class MotionOnset : std::uint8_t {
 /// (Existence::settled) and whether it was seen to walk (Existence::pedestrian). Two thresholds keep it from
 /// wavering: its onset must be likely in two scans running, or certain in one, and it stays moving until it has been
 /// slow for more than four seconds.
-void judge_motion(Target& target, const Surroundings& around, Time now) noexcept;
+void judge_motion(Target& target, const Surroundings& around) noexcept;
 
 /// What was seen of its way until now tells nothing.
 void forget_walk(Target& target, const Pose2& map_from_laser, Time now) noexcept;

@@ -31,7 +31,7 @@ struct LeastWalk {
   double sigmas = 0.0, length_m = 0.0;
 };
 
-LeastWalk least_walk(const MotionEvidence& e, const StraightFit& fit) {
+LeastWalk least_walk(const Target& e, const StraightFit& fit) {
   if (!e.appearance.solid()) return {kThingSigmas, kSteadyM};
   if (e.onset.came_to_free_space() && fit.explained > kStraightExplains) return {kCameSigmas, kCameM};
   return {kSolidSigmas, kSteadyM};
@@ -43,12 +43,43 @@ LeastWalk least_walk(const MotionEvidence& e, const StraightFit& fit) {
 class PositionHistory::Fit {
  public:
   explicit Fit(const Position& newest) : newest_(newest), last_(newest) {}
-  void add(const Position& older) noexcept;
-  [[nodiscard]] StraightFit result() const noexcept;
+
+  void add(const Position& position) noexcept {
+    const double t = to_seconds(position.when - newest_.when);
+    const Vec2 p = position.seen.where_in_map - newest_.seen.where_in_map;
+    n_ += 1.0, t_ += t, tt_ += t * t, pp_ += dot(p, p);
+    p_ = p_ + p, tp_ = tp_ + p * t;
+    if (fit_.positions > 0) fit_.longest_hop_m = std::max(fit_.longest_hop_m, hop(position, last_));
+    fit_.positions += 1;
+    fit_.duration_s = -t;
+    fit_.spacing_m = std::max(fit_.spacing_m, position.seen.spacing_m);
+    if (position.seen.whole) {
+      fit_.whole_positions += 1;
+      widest_whole_m_ = std::max(widest_whole_m_, position.seen.width_m);
+      narrowest_m_ = std::min(narrowest_m_, position.seen.width_m);
+    }
+    last_ = position;
+  }
+
+  [[nodiscard]] StraightFit result() const noexcept {
+    StraightFit fit = fit_;
+    const double tt = tt_ - t_ * t_ / n_, scatter = pp_ - dot(p_, p_) / n_;
+    if (fit.positions < 3 || !(tt > 0.0) || scatter < kRoundOffM2) return fit;
+    const Vec2 tp = tp_ - p_ * (t_ / n_), velocity = tp * (1.0 / tt);
+    const double explained = dot(velocity, tp);
+    fit.length_m = norm(velocity) * fit.duration_s;
+    fit.explained = explained / scatter;
+    fit.sigmas = norm(velocity) * std::sqrt(tt / noise_variance(std::max(scatter - explained, 0.0), n_));
+    fit.width_change_m = std::max(0.0, widest_whole_m_ - narrowest_m_);
+    return fit;
+  }
 
  private:
   /// How much farther it is from the position before to `position` than a walker comes in the time.
-  [[nodiscard]] static double hop(const Position& before, const Position& position) noexcept;
+  [[nodiscard]] static double hop(const Position& before, const Position& position) noexcept {
+    const double walked_s = std::min(to_seconds(position.when - before.when), kLongestGapS);
+    return distance(before.seen.where_in_map, position.seen.where_in_map) - kWalkMps * walked_s;
+  }
 
   Position newest_, last_;  ///< last added: the oldest
   StraightFit fit_;         ///< what needs no fit
@@ -56,41 +87,6 @@ class PositionHistory::Fit {
   double n_ = 0.0, t_ = 0.0, tt_ = 0.0, pp_ = 0.0;  ///< sums; times and positions less the newest
   Vec2 p_, tp_;
 };
-
-double PositionHistory::Fit::hop(const Position& before, const Position& position) noexcept {
-  const double walked_s = std::min(to_seconds(position.when - before.when), kLongestGapS);
-  return distance(before.seen.where_in_map, position.seen.where_in_map) - kWalkMps * walked_s;
-}
-
-void PositionHistory::Fit::add(const Position& position) noexcept {
-  const double t = to_seconds(position.when - newest_.when);
-  const Vec2 p = position.seen.where_in_map - newest_.seen.where_in_map;
-  n_ += 1.0, t_ += t, tt_ += t * t, pp_ += dot(p, p);
-  p_ = p_ + p, tp_ = tp_ + p * t;
-  if (fit_.positions > 0) fit_.longest_hop_m = std::max(fit_.longest_hop_m, hop(position, last_));
-  fit_.positions += 1;
-  fit_.duration_s = -t;
-  fit_.spacing_m = std::max(fit_.spacing_m, position.seen.spacing_m);
-  if (position.seen.whole) {
-    fit_.whole_positions += 1;
-    widest_whole_m_ = std::max(widest_whole_m_, position.seen.width_m);
-    narrowest_m_ = std::min(narrowest_m_, position.seen.width_m);
-  }
-  last_ = position;
-}
-
-StraightFit PositionHistory::Fit::result() const noexcept {
-  StraightFit fit = fit_;
-  const double tt = tt_ - t_ * t_ / n_, scatter = pp_ - dot(p_, p_) / n_;
-  if (fit.positions < 3 || !(tt > 0.0) || scatter < kRoundOffM2) return fit;
-  const Vec2 tp = tp_ - p_ * (t_ / n_), velocity = tp * (1.0 / tt);
-  const double explained = dot(velocity, tp);
-  fit.length_m = norm(velocity) * fit.duration_s;
-  fit.explained = explained / scatter;
-  fit.sigmas = norm(velocity) * std::sqrt(tt / noise_variance(std::max(scatter - explained, 0.0), n_));
-  fit.width_change_m = std::max(0.0, widest_whole_m_ - narrowest_m_);
-  return fit;
-}
 
 void PositionHistory::add(Time when, const Sample& seen) noexcept {
   if (count_ > 0 && when - at(count_ - 1).since < kApart) {
@@ -131,16 +127,16 @@ StraightFit PositionHistory::fit_newest(std::size_t fewest) const noexcept {
   return best;
 }
 
-bool steady(const MotionEvidence& e, const StraightFit& fit) noexcept {
+bool steady(const Target& e, const StraightFit& fit) noexcept {
   const LeastWalk least = least_walk(e, fit);
   return fit.sigmas > least.sigmas && fit.length_m > std::max(least.length_m, kGrew * fit.width_change_m);
 }
 
-double least_steady_m(const MotionEvidence& e, const StraightFit& fit) noexcept { return least_walk(e, fit).length_m; }
+double least_steady_m(const Target& e, const StraightFit& fit) noexcept { return least_walk(e, fit).length_m; }
 
 bool keeps_its_width(const StraightFit& fit, double change_m) noexcept { return change_m < kRigidShare * fit.length_m; }
 
-bool rigid(const MotionEvidence& e, const StraightFit& fit) noexcept {
+bool rigid(const Target& e, const StraightFit& fit) noexcept {
   const bool both_sides = e.appearance.whole && fit.whole_positions >= kFewestWhole;
   return both_sides && e.appearance.solid() && steady(e, fit) && keeps_its_width(fit, fit.width_change_m);
 }

@@ -8,7 +8,7 @@
 #include "hal/types/time.h"
 
 namespace jaywalk {
-struct MotionEvidence;
+struct Target;
 
 /// How well some of a target's last positions lie on one straight walk of constant speed.
 struct StraightFit {
@@ -79,15 +79,15 @@ inline constexpr std::size_t kFewestWhole = 4;
 /// Whether `fit` is so straight for its length that there is no doubt left (a slow robot is both slow and straight, a
 /// person fast and swaying): so many of its standard deviations long that it is a walk, and longer than growing or
 /// shrinking explains. The more the target and the ground tell, the shorter it may be.
-[[nodiscard]] bool steady(const MotionEvidence& e, const StraightFit& fit) noexcept;
+[[nodiscard]] bool steady(const Target& e, const StraightFit& fit) noexcept;
 
 /// The shortest walk that is steady, m.
-[[nodiscard]] double least_steady_m(const MotionEvidence& e, const StraightFit& fit) noexcept;
+[[nodiscard]] double least_steady_m(const Target& e, const StraightFit& fit) noexcept;
 
 /// Whether a width that changed by `change_m` meanwhile is the same, to what a walk so long tells.
 [[nodiscard]] bool keeps_its_width(const StraightFit& fit, double change_m) noexcept;
 
 /// Steady, and both sides of a body went along, of which nothing hides either: no surface that comes into view does so.
-[[nodiscard]] bool rigid(const MotionEvidence& e, const StraightFit& fit) noexcept;
+[[nodiscard]] bool rigid(const Target& e, const StraightFit& fit) noexcept;
 
 }  // namespace jaywalk

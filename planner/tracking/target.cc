@@ -158,12 +158,11 @@ Target born_at(Vec2 position, double std_m, double radius, Time now, std::uint32
   return target;
 }
 
-void anchor_here(OnsetHistory& onset, Vec2 position, const Appearance& seen, const Pose2& map_from_laser,
-                 Time now) noexcept {
-  onset.anchor_in_map = position;
-  onset.anchor_outline = seen.outline_in_map;
-  onset.anchor_in_laser = inverse(map_from_laser) * position;
-  onset.anchored = now;
+void anchor_here(Target& target, const Pose2& map_from_laser, Time now) noexcept {
+  target.onset.anchor_in_map = target.position();
+  target.onset.anchor_outline = target.appearance.outline_in_map;
+  target.onset.anchor_in_laser = inverse(map_from_laser) * target.position();
+  target.onset.anchored = now;
 }
 
 void move_all(Estimate& estimate, OnsetHistory& onset, Vec2 by_m) noexcept {
@@ -228,7 +227,7 @@ void update_with(Target& target, const Observation& seen, const Pose2& map_from_
   onset.positions.add(now, {seen.position_in_map, seen.width_m, seen.spacing_m, seen.whole});
   note_seen(estimate, appearance, seen);
   if (after_a_gap && !track.moving)  // what stood elsewhere may be another
-    anchor_here(onset, track.position_in_map, appearance, map_from_laser, now);
+    anchor_here(target, map_from_laser, now);
   onset.free_share += std::max(kFreeGain, 1.0 / track.hits) * ((seen.in_free_space ? 1.0 : 0.0) - onset.free_share);
   estimate.as_seen = track;
 }

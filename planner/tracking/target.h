@@ -117,17 +117,6 @@ struct Existence {
   [[nodiscard]] bool confirmed(const Track& track) const { return given || track.hits >= 3; }
 };
 
-/// What rules about its motion read.
-struct MotionEvidence {
-  const Estimate& estimate;
-  const Appearance& appearance;
-  const OnsetHistory& onset;
-
-  [[nodiscard]] Vec2 position() const { return estimate.track.position_in_map; }
-  /// From the anchor to where it is, in the map.
-  [[nodiscard]] Vec2 way() const { return position() - onset.anchor_in_map; }
-};
-
 /// A track with what the tracker alone needs to know of it.
 struct Target {
   Estimate estimate;
@@ -136,7 +125,9 @@ struct Target {
   Existence existence;
 
   [[nodiscard]] bool confirmed() const { return existence.confirmed(estimate.track); }
-  [[nodiscard]] MotionEvidence motion() const { return {estimate, appearance, onset}; }
+  [[nodiscard]] Vec2 position() const { return estimate.track.position_in_map; }
+  /// From the anchor to where it is, in the map.
+  [[nodiscard]] Vec2 way() const { return position() - onset.anchor_in_map; }
 };
 
 using Targets = FixedVector<Target, kMaxTracks>;
@@ -145,8 +136,7 @@ using Targets = FixedVector<Target, kMaxTracks>;
 [[nodiscard]] Target born_at(Vec2 position_in_map, double std_m, double radius_m, Time now, std::uint32_t id) noexcept;
 
 /// From now on it is watched for going away from where it is, and was just seen.
-void anchor_here(OnsetHistory& onset, Vec2 position_in_map, const Appearance& seen, const Pose2& map_from_laser,
-                 Time now) noexcept;
+void anchor_here(Target& target, const Pose2& map_from_laser, Time now) noexcept;
 
 /// It was `by_m` from where it was taken to be, all the time.
 void move_all(Estimate& estimate, OnsetHistory& onset, Vec2 by_m) noexcept;
@@ -154,8 +144,6 @@ void move_all(Estimate& estimate, OnsetHistory& onset, Vec2 by_m) noexcept;
 /// Adds `newcomer`. When there are kMaxTracks already, the one farthest from the robot goes, of those that stand where
 /// walls stand if there are any; and that may be the newcomer.
 void admit(Targets& targets, const Target& newcomer, Vec2 robot_in_map) noexcept;
-
-// A target from one scan to the next: predicted, then corrected by what the scan shows of it.
 
 /// From one scan or report to the next, s: 0 where there was none before or time went back, and 1 at most, since those
 /// farther apart tell no velocity.

@@ -1,9 +1,11 @@
 #include "apps/campaign/report.h"
 
 #include "apps/campaign/campaign_folder.h"
-#include "tests/campaign/made_campaigns.h"
+#include "tests/recording/scratch.h"
 #include "tests/support/catch.h"
+#include "tests/support/text.h"
 
+using jaywalk::count_of, jaywalk::holds, jaywalk::refusal_of, jaywalk::Scratch;
 using namespace jaywalk::campaign;
 
 namespace {
@@ -12,13 +14,12 @@ Plan two_runs() {
   Plan plan;
   for (const std::uint64_t seed : {1U, 2U}) {
     PlannedRun run;
-    run.experiment = "a";
     run.row = "movers.count 4";
     run.values = {"4"};
     run.scenario = "room";
     run.seed = seed;
     run.folder = "a/movers.count=4/room/" + std::to_string(seed);
-    run.arguments = {"sim", "room.toml", "--seed", std::to_string(seed)};
+    run.command = "jaywalk sim room.toml --seed " + std::to_string(seed) + " --out out/" + run.folder;
     run.cruise_mps = 0.5;
     plan.runs.push_back(run);
   }
@@ -60,19 +61,21 @@ void finish(const CampaignFolder& folder, const PlannedRun& run, const std::stri
 }  // namespace
 
 TEST_CASE("shards in folders of their own come to the report of one") {
-  const CampaignScratch scratch;
+  const Scratch scratch;
   const Plan plan = two_runs();
   {
-    const CampaignFolder one(scratch.path() / "one", text(), {1, 1});
-    const CampaignFolder first(scratch.path() / "s1", text(), {1, 2}), second(scratch.path() / "s2", text(), {2, 2});
+    const CampaignFolder one(scratch.folder() / "one", text(), {1, 1});
+    const CampaignFolder first(scratch.folder() / "s1", text(), {1, 2}),
+        second(scratch.folder() / "s2", text(), {2, 2});
     finish(one, plan.runs[0], "reached"), finish(one, plan.runs[1], "forced_mover");
     finish(first, plan.runs[0], "reached"), finish(second, plan.runs[1], "forced_mover");
   }
-  const CampaignReport whole({scratch.path() / "one"}), merged({scratch.path() / "s2", scratch.path() / "s1"});
-  CHECK(whole.missing() == 0);
-  CHECK(html_of(whole.page()) == html_of(merged.page()));
-  CHECK(markdown_of(whole.page()) == markdown_of(merged.page()));
-  const std::string page = markdown_of(whole.page());
+  const ReportPage whole = page_of({scratch.folder() / "one"}),
+                   merged = page_of({scratch.folder() / "s2", scratch.folder() / "s1"});
+  CHECK(whole.missing == 0);
+  CHECK(html_of(whole) == html_of(merged));
+  CHECK(markdown_of(whole) == markdown_of(merged));
+  const std::string page = markdown_of(whole);
   CHECK(holds(page, "| A | 1 of 2 |"));
   CHECK(holds(page, "| the paper, on its own maps | 92.5 % |"));
   CHECK(holds(page, "| movers.count 4 | 1 of 2 | 50.0 % (9-91) | 1 | 0 | 0 | 0 | 0 | 2 | 1 | 0 | 0 | 1 |"));
@@ -83,15 +86,15 @@ TEST_CASE("shards in folders of their own come to the report of one") {
   CHECK(holds(page,
               "1. a/movers.count=4/room/2: forced_mover at 2.50 s: mover 1 | had to turn\n   `jaywalk sim room.toml "
               "--seed 2 --out "));
-  CHECK(holds(html_of(whole.page()), "Made &lt;up&gt;"));
+  CHECK(holds(html_of(whole), "Made &lt;up&gt;"));
 }
 
 TEST_CASE("a report shows cards, a row a run that can be sorted, and files that any system can name") {
-  const CampaignScratch scratch;
+  const Scratch scratch;
   const Plan plan = two_runs();
-  const CampaignFolder folder(scratch.path() / "one", text(), {1, 1});
+  const CampaignFolder folder(scratch.folder() / "one", text(), {1, 1});
   finish(folder, plan.runs[0], "reached"), finish(folder, plan.runs[1], "forced_mover");
-  const std::string page = html_of(CampaignReport({scratch.path() / "one"}).page());
+  const std::string page = html_of(page_of({scratch.folder() / "one"}));
   CHECK(holds(page, "<div><b>1 of 2</b>succeeded: 9 to 91 % (95 %)</div>"));
   CHECK(holds(page, "<div><b>1</b>runs with a loop</div>"));
   CHECK(holds(
@@ -112,25 +115,24 @@ TEST_CASE("settings that differ in one option are compared run by run over share
       &experiment, {{"4, full", {"4", "full"}, {}}, {"8, full", {"8", "full"}, {}}, {"8, paper", {"8", "paper"}, {}}}};
   for (std::size_t row = 0; row < 3; ++row) {
     for (std::size_t k = 0; k < 5; ++k) {
-      ReportedRun run{&runs[k], nullptr, result("reached"), {}};
+      ReportedRun run{&runs[k], result("reached"), {}};
       if (row == 2) run.result.figures["duration_s"] += 1.0 + static_cast<double>(k);
       tables.rows[row].runs.push_back(run);
     }
   }
-  const std::vector<ReportTable> paired = paired_tables(tables);
-  REQUIRE(paired.size() == 1);
-  REQUIRE(paired[0].rows.size() == 1);  // 8 movers against 4 are other worlds
-  CHECK(paired[0].rows[0][0] == "8, paper, less 8, full");
-  CHECK(paired[0].rows[0][1] == "0.0 (0.0 to 0.0), 5");
-  CHECK(paired[0].rows[0][3] == "3.0 (1.1 to 4.9), 5");
+  const ReportTable paired = paired_table(tables);
+  REQUIRE(paired.rows.size() == 1);  // 8 movers against 4 are other worlds
+  CHECK(paired.rows[0][0] == "8, paper, less 8, full");
+  CHECK(paired.rows[0][1] == "0.0 (0.0 to 0.0), 5");
+  CHECK(paired.rows[0][3] == "3.0 (1.1 to 4.9), 5");
   tables.rows[2].runs.pop_back();
-  CHECK(paired_tables(tables).empty());  // four pairs prove nothing
+  CHECK(paired_table(tables).rows.empty());  // four pairs prove nothing
 }
 
 TEST_CASE("a report has a table of people where the robot moved any, and none elsewhere") {
   ReportedExperiment experiment;
   PlannedRun run;
-  ReportedTables tables{&experiment, {{"orca", {}, {{&run, nullptr, result("reached"), {}}}}}};
+  ReportedTables tables{&experiment, {{"orca", {}, {{&run, result("reached"), {}}}}}};
   const auto people = [&] {
     for (const ReportTable& table : tables_of(tables))
       if (table.title.starts_with("People")) return table.rows[0];
@@ -145,26 +147,24 @@ TEST_CASE("a report has a table of people where the robot moved any, and none el
 }
 
 TEST_CASE("a report says what is missing, and does not mix campaigns") {
-  const CampaignScratch scratch;
+  const Scratch scratch;
   const Plan plan = two_runs();
-  { finish(CampaignFolder(scratch.path() / "one", text(), {1, 1}), plan.runs[0], "reached"); }
-  const CampaignReport report({scratch.path() / "one"});
-  CHECK(report.missing() == 1);
-  CHECK(holds(markdown_of(report.page()), "1 runs are missing"));
-  { const CampaignFolder other(scratch.path() / "two", text() + " ", {1, 1}); }
-  CHECK(holds(refusal_of([&] {
-                CampaignReport({scratch.path() / "one", scratch.path() / "two"});
-              }),
-              "holds another campaign"));
-  CHECK(holds(refusal_of([&] { CampaignReport({scratch.path()}); }), "holds no campaign"));
-  CHECK(holds(refusal_of([&] { CampaignFolder(scratch.path() / "two", text(), {1, 1}); }), "holds another campaign"));
+  { finish(CampaignFolder(scratch.folder() / "one", text(), {1, 1}), plan.runs[0], "reached"); }
+  const ReportPage page = page_of({scratch.folder() / "one"});
+  CHECK(page.missing == 1);
+  CHECK(holds(markdown_of(page), "1 runs are missing"));
+  { const CampaignFolder other(scratch.folder() / "two", text() + " ", {1, 1}); }
+  const std::vector<std::filesystem::path> both{scratch.folder() / "one", scratch.folder() / "two"};
+  CHECK(holds(refusal_of([&] { return page_of(both); }), "holds another campaign"));
+  CHECK(holds(refusal_of([&] { return page_of({scratch.folder()}); }), "holds no campaign"));
+  CHECK(holds(refusal_of([&] { CampaignFolder(scratch.folder() / "two", text(), {1, 1}); }), "holds another campaign"));
 }
 
 TEST_CASE("one share is one process's, and what it left half done is none") {
-  const CampaignScratch scratch;
+  const Scratch scratch;
   const PlannedRun run = two_runs().runs[0];
-  const CampaignFolder folder(scratch.path(), text(), {1, 2});
-  CHECK(holds(refusal_of([&] { CampaignFolder(scratch.path(), text(), {1, 2}); }), "another process runs its share"));
+  const CampaignFolder folder(scratch.folder(), text(), {1, 2});
+  CHECK(holds(refusal_of([&] { CampaignFolder(scratch.folder(), text(), {1, 2}); }), "another process runs its share"));
   scratch.write("runs/" + run.folder + ".part-1-of-2/run.json", "half");
   CHECK_FALSE(folder.is_finished(run));
   CHECK(std::filesystem::is_empty(folder.begin(run)));
@@ -174,22 +174,20 @@ TEST_CASE("one share is one process's, and what it left half done is none") {
 }
 
 TEST_CASE("a successful run keeps its figures, a failed one everything") {
-  const CampaignScratch scratch;
+  const Scratch scratch;
   const Plan plan = two_runs();
-  const CampaignFolder folder(scratch.path(), text(), {1, 1});
+  const CampaignFolder folder(scratch.folder(), text(), {1, 1});
   for (const PlannedRun& run : plan.runs) std::ofstream(folder.begin(run) / "recording.jwr") << "long";
   folder.finish(plan.runs[0], result("reached"), Keep::kFailures);
   folder.finish(plan.runs[1], result("timeout"), Keep::kFailures);
-  CHECK_FALSE(std::filesystem::exists(place_of(scratch.path(), plan.runs[0]) / "recording.jwr"));
-  CHECK(std::filesystem::exists(place_of(scratch.path(), plan.runs[1]) / "recording.jwr"));
+  CHECK_FALSE(std::filesystem::exists(place_of(scratch.folder(), plan.runs[0]) / "recording.jwr"));
+  CHECK(std::filesystem::exists(place_of(scratch.folder(), plan.runs[1]) / "recording.jwr"));
 }
 
 TEST_CASE("charts hold the lines and the paper's points") {
   const std::string svg = success_chart({{"ours <1>", {{1.0, 4, 4}, {16.0, 2, 4}}}});
   CHECK(holds(svg, "ours &lt;1&gt;"));
-  std::size_t circles = 0;
-  for (std::size_t at = svg.find("<circle"); at != std::string::npos; at = svg.find("<circle", at + 1)) ++circles;
-  CHECK(circles == 2 + 6);
+  CHECK(count_of("<circle", svg) == 2 + 6);
 }
 
 TEST_CASE("an experiment of several maps has a small chart a map, all with the same axes") {
@@ -199,24 +197,19 @@ TEST_CASE("an experiment of several maps has a small chart a map, all with the s
   for (PlannedRun& run : runs) run.scenario = "room", run.cruise_mps = 0.5;
   runs[0].scenario = "hall";
   ReportedTables tables{&experiment, {{"all", {}, {}}}};
-  for (const PlannedRun& run : runs) tables.rows[0].runs.push_back({&run, nullptr, result("reached"), {}});
+  for (const PlannedRun& run : runs) tables.rows[0].runs.push_back({&run, result("reached"), {}});
   tables.rows[0].runs[1].result.figures["duration_s"] = 57.0;  // 37 s lost; 40 is the next round figure
   tables.rows[0].runs[2].result = result("timeout");
-  const std::string svg = map_chart(map_panels(tables));
-  const auto count = [&svg](const std::string& what) {
-    std::size_t found = 0;
-    for (std::size_t at = svg.find(what); at != std::string::npos; at = svg.find(what, at + 1)) ++found;
-    return found;
-  };
-  CHECK(count(">hall</text>") == 1);
-  CHECK(count(">room</text>") == 1);
-  CHECK(count(">40</text>") == 2);
-  CHECK(count(">0</text>") == 2);
+  const std::string svg = map_chart(tables);
+  CHECK(count_of(">hall</text>", svg) == 1);
+  CHECK(count_of(">room</text>", svg) == 1);
+  CHECK(count_of(">40</text>", svg) == 2);
+  CHECK(count_of(">0</text>", svg) == 2);
   CHECK(holds(svg, "<title>all, seed 0: 37.0</title>"));
   CHECK(holds(svg, "<title>all, seed 0: did not arrive</title>"));
-  CHECK(count("<circle") == 3);
+  CHECK(count_of("<circle", svg) == 3);
   experiment.scenarios.pop_back();
-  CHECK(map_panels(tables).empty());
+  CHECK(map_chart(tables).empty());
 }
 
 TEST_CASE("success stands by movers, and a dash where nothing was run") {

@@ -9,9 +9,11 @@
 
 #include "apps/campaign/campaign.h"
 #include "apps/campaign/campaign_folder.h"
-#include "tests/campaign/made_campaigns.h"
+#include "tests/recording/scratch.h"
 #include "tests/support/catch.h"
+#include "tests/support/text.h"
 
+using jaywalk::holds, jaywalk::refusal_of, jaywalk::Scratch;
 using namespace jaywalk::campaign;
 
 namespace {
@@ -29,7 +31,7 @@ const std::string kMovers =
 
 int exit_of(int code) { return code << 8; }
 
-struct Folder : CampaignScratch {
+struct Folder : Scratch {
   explicit Folder(const std::string& outcome) {
     std::string summary = kSummary;
     write("summary.json", summary.replace(summary.find("OUTCOME"), 7, outcome));
@@ -39,7 +41,7 @@ struct Folder : CampaignScratch {
   [[nodiscard]] RunResult result(int status = exit_of(1)) const {
     PlannedRun run;
     run.goal = {1.4, 5.0};
-    return result_of(run, path(), status);
+    return result_of(run, folder(), status);
   }
 };
 
@@ -104,7 +106,7 @@ TEST_CASE("hard brakes are counted, and the jerk apart from them") {
 
 TEST_CASE("a run that crashed or was refused is a result with its reason") {
   Folder folder("reached");
-  folder.write("said.txt", "half a line\njaywalk: " + folder.path().string() + "/x.toml:3: no; mend it\n");
+  folder.write("said.txt", "half a line\njaywalk: " + folder.folder().string() + "/x.toml:3: no; mend it\n");
   const RunResult refused = folder.result(exit_of(2));
   CHECK(refused.outcome == "refused");
   CHECK(refused.reason == "exit code 2: OUT/x.toml:3: no; mend it");
@@ -119,13 +121,13 @@ TEST_CASE("a result comes out of its mark as it went in") {
   CHECK(to_text(again) == to_text(result));
   CHECK(again.figure("path_length_m") == 12.5);
   CHECK(again.turns[17] == 2);
-  CHECK(holds(refusal_of([&] { static_cast<void>(read_result(folder.write("run.json", "{}"))); }), "is no run.json"));
+  CHECK(holds(refusal_of([&] { return read_result(folder.write("run.json", "{}")); }), "is no run.json"));
 }
 
 TEST_CASE("a process that is killed ends alone, and what it said is there") {
-  CampaignScratch folder;
-  const int status = status_of(folder.path(), "echo jaywalk: dying; kill -SEGV $$");
+  Scratch folder;
+  const int status = status_of(folder.folder(), "echo jaywalk: dying; kill -SEGV $$");
   REQUIRE(WIFSIGNALED(status));
-  CHECK(result_of({}, folder.path(), status).reason == "ended by signal 11: dying");
-  CHECK(WEXITSTATUS(status_of(folder.path(), "exit 3")) == 3);
+  CHECK(result_of({}, folder.folder(), status).reason == "ended by signal 11: dying");
+  CHECK(WEXITSTATUS(status_of(folder.folder(), "exit 3")) == 3);
 }

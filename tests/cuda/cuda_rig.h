@@ -14,29 +14,27 @@ inline emulated::Properties properties_of(std::uint64_t seed) {
   return {.not_ready = static_cast<int>(seed % 3), .seed = seed};
 }
 
+/// What `make` makes on device 0.
+template <class Make>
+auto on_device(const Make& make) {
+  std::string why_not;
+  auto made = make(0, why_not);
+  INFO(why_not);
+  REQUIRE(made != nullptr);
+  return made;
+}
+
 inline std::unique_ptr<paper::MapField> cuda_field(const paper::CellMap& map) {
-  std::string why_not;
-  auto field = paper::make_cuda_map_field(map, 0, why_not);
-  INFO(why_not);
-  REQUIRE(field != nullptr);
-  return field;
+  return on_device(
+      [&map](int device, std::string& why_not) { return paper::make_cuda_map_field(map, device, why_not); });
 }
-
 inline std::unique_ptr<Planner> cuda_planner(const PlannerConfig& config) {
-  std::string why_not;
-  auto planner = make_cuda_planner(config, 0, why_not);
-  INFO(why_not);
-  REQUIRE(planner != nullptr);
-  return planner;
+  return on_device([&](int device, std::string& why_not) { return make_cuda_planner(config, device, why_not); });
 }
-
 /// The paper's.
 inline std::unique_ptr<Planner> cuda_paper_planner(const paper::PaperConfig& config) {
-  std::string why_not;
-  auto planner = paper::make_cuda_paper_planner(config, 0, why_not);
-  INFO(why_not);
-  REQUIRE(planner != nullptr);
-  return planner;
+  return on_device(
+      [&](int device, std::string& why_not) { return paper::make_cuda_paper_planner(config, device, why_not); });
 }
 
 }  // namespace jaywalk::test

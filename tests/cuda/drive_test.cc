@@ -61,11 +61,6 @@ class Drive {
   Time due_{};
 };
 
-/// The most that two commands differ, in a wheel's speed.
-double most_apart_radps(const WheelCommand& a, const WheelCommand& b) {
-  return std::max(std::fabs(a.left_radps - b.left_radps), std::fabs(a.right_radps - b.right_radps));
-}
-
 /// Drives both for so many ticks; the device is lost at one of them, or never. The most that commands differ, rad/s.
 double check_drive(const char* scenario, PlanMode mode, int ticks, int lost_at, Fault fault = Fault::kNone) {
   device().power_on({.seed = 5});
@@ -74,7 +69,8 @@ double check_drive(const char* scenario, PlanMode mode, int ticks, int lost_at, 
   for (int k = 0; k < ticks; ++k) {
     if (k == lost_at) device().order(fault, 2);
     const TickRecord &a = cpu.tick(), &b = gpu.tick();
-    most_apart = std::max(most_apart, most_apart_radps(a.command, b.command));
+    most_apart = std::max({most_apart, std::fabs(a.command.left_radps - b.command.left_radps),
+                           std::fabs(a.command.right_radps - b.command.right_radps)});
   }
   CHECK(device().counts.launches > 0);
   CHECK(cpu.gone_m() > 0.1);

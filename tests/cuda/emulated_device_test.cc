@@ -94,16 +94,6 @@ TEST_CASE("a barrier that some threads leave out never opens") {
   CHECK(emulated::device().is_stuck);
 }
 
-TEST_CASE("all threads of a block are told what one has voted, and of the next vote nothing of it") {
-  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-    Rig rig({.seed = seed});
-    REQUIRE(rig.launch({.blocks = 1, .threads = 96}, vote_twice, rig.ints) == cudaSuccess);
-    const std::vector<int> values = rig.result();
-    CHECK(values[0] == 96);
-    CHECK(values[1] == 0);
-  }
-}
-
 TEST_CASE("a launch runs when something waits for it, and not before") {
   Rig rig({.not_ready = 2});
   int* pinned = nullptr;

@@ -3,7 +3,7 @@
 #include <cstdio>
 
 #include "tests/cuda/cuda_rig.h"
-#include "tests/planner/cuda_parity.h"
+#include "tests/planner/same_bytes.h"
 #include "tests/planner/shaped_maps.h"
 
 using namespace jaywalk;
@@ -33,33 +33,20 @@ paper::PaperConfig window(std::int32_t side) {
 }
 
 /// Plans in a window of 6.4 m among six movers.
-void check_crowd(const emulated::Properties& properties, int ticks) {
-  const EvidenceMap map = evidence_of(boxes(64, 3));
+void check_movers(const emulated::Properties& properties, int ticks) {
   device().power_on(properties);
   const auto cpu = paper::make_cpu_paper_planner(small_window()), gpu = cuda_paper_planner(small_window());
-  std::vector<Track> tracks = crowd();
-  PlanRequest request = across(map);
-  int planned = 0;
-  for (int tick = 0; tick < ticks; ++tick) {
-    for (Track& track : tracks) track.position_in_map = track.position_in_map + track.velocity_in_map * 0.066;
-    request.moving = tracks;
-    planned += check_plan(*cpu, *gpu, request) ? 1 : 0;
-  }
-  CHECK(planned > 0);
-}
-
-/// A field of 100 cells a side, or of 128.
-void check_seed(std::uint64_t seed) {
-  device().power_on(properties_of(seed));
-  const paper::CellMap map = cells_of(boxes(seed % 5 == 0 ? 128 : 100, seed));
-  check_field(map, *cuda_field(map));
-  CHECK_FALSE(device().is_stuck);
+  check_crowd(*cpu, *gpu, boxes(64, 3), ticks);
 }
 
 void check_shape(const paper::CellMap& map, std::uint64_t seed) {
   device().power_on(properties_of(seed));
   check_field(map, *cuda_field(map));
+  CHECK_FALSE(device().is_stuck);
 }
+
+/// A field of 100 cells a side, or of 128.
+void check_seed(std::uint64_t seed) { check_shape(cells_of(boxes(seed % 5 == 0 ? 128 : 100, seed)), seed); }
 
 }  // namespace
 
@@ -73,7 +60,7 @@ TEST_CASE("emulated: fields have the CPU's bytes in random orders") {
 }
 
 TEST_CASE("emulated: the paper's plans among movers have the CPU's bytes") {
-  for (std::uint64_t seed = 1; seed <= 2; ++seed) check_crowd(properties_of(seed), 2);
+  for (std::uint64_t seed = 1; seed <= 2; ++seed) check_movers(properties_of(seed), 2);
 }
 
 TEST_CASE("emulated: plans across 12.8 m have the CPU's bytes, in one memory and two that the host keeps out of") {
@@ -121,7 +108,7 @@ TEST_CASE("emulated at length: fields in random orders from 20 seeds", "[.large]
 }
 
 TEST_CASE("emulated at length: plans among movers in random orders from 20 seeds", "[.large]") {
-  for (std::uint64_t seed = 1; seed <= 20; ++seed) check_crowd(properties_of(seed), 6);
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) check_movers(properties_of(seed), 6);
 }
 
 TEST_CASE("emulated at length: fields and plans of 256 and 512 cells a side", "[.large]") {
@@ -137,6 +124,5 @@ TEST_CASE("emulated at length: fields and plans of 256 and 512 cells a side", "[
 }
 
 TEST_CASE("emulated at length: the field of 1100 cells a side, whose blocks go down twice in a cycle", "[.large]") {
-  device().power_on(properties_of(14));
-  check_field(large_map(), *cuda_field(large_map()));
+  check_shape(large_map(), 14);
 }

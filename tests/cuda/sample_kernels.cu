@@ -10,12 +10,6 @@ __global__ void add_place(int* ints) {
   ints[k] = static_cast<int>(k);
 }
 
-__global__ void vote_twice(int* ints) {
-  if (threadIdx.x == 0) ints[0] = ints[1] = 0;
-  const int some = __syncthreads_or(threadIdx.x == 5 ? 1 : 0), none = __syncthreads_or(0);
-  atomicAdd(ints, some), atomicAdd(ints + 1, none);
-}
-
 __global__ void meet_by_halves(int*) {
   if (threadIdx.x % 2 == 0) __syncthreads();
 }

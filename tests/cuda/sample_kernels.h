@@ -32,8 +32,6 @@ __global__ void sum_of_block(int* ints) {
   }
 }
 
-/// Counts the threads that were told of one vote for yes, and of the next, where there is none.
-__global__ void vote_twice(int* ints);
 __global__ void meet_by_halves(int* ints);
 __global__ void nans(int* ints, float nan);
 

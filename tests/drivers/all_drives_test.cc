@@ -184,7 +184,7 @@ TEST_CASE("whatever stands on the bus the wheels' state stays finite and a stop 
     bool stopped = false;
     for (int k = 0; k < 3000; ++k) {
       for (int burst = 0; burst < 4; ++burst) {
-        CHECK(bench.bus.port(3).send(kind.random_frame(random)) == SendResult::kQueued);
+        CHECK(bench.bus.port(3).send(kind.random_frame(random)));
       }
       bench.drive(2.0, 2.0, 1);
       REQUIRE(std::isfinite(bench.wheels.left_rad + bench.wheels.right_rad));

@@ -68,7 +68,7 @@ class DriveBench {
   }
   void wait(Duration span) { clock.sleep_until(clock.now() + span); }
   /// Another program on the bus says this.
-  void stranger_says(const CanFrame& frame) { REQUIRE(bus.port(3).send(frame) == SendResult::kQueued); }
+  void stranger_says(const CanFrame& frame) { REQUIRE(bus.port(3).send(frame)); }
   [[nodiscard]] bool is_at_rest() const { return std::fabs(wheel_radps(0)) + std::fabs(wheel_radps(1)) < 1e-9; }
 
   Duration tick = std::chrono::milliseconds(20);
@@ -97,7 +97,7 @@ class BenchOf : public DriveBench {
 
   [[nodiscard]] WiredDrive& drives() noexcept override { return base; }
   [[nodiscard]] double wheel_radps(std::size_t side) const override { return node(side).velocity() / scale(side); }
-  [[nodiscard]] double wheel_rad(std::size_t side) const override { return Kind::position(node(side)) / scale(side); }
+  [[nodiscard]] double wheel_rad(std::size_t side) const override { return node(side).position() / scale(side); }
   [[nodiscard]] bool has_torque(std::size_t side) const override { return node(side).state_name() == "enabled"; }
   void pull_cable(std::size_t side) override { node(side).pull_cable(); }
   void plug_cable(std::size_t side) override { node(side).plug_cable(); }
@@ -121,7 +121,6 @@ struct Cia402 {
   static constexpr std::array<std::uint8_t, 2> kIds{5, 6};
   static constexpr double kPerRad = 1000.0;  ///< counts
   static Setup setup() { return two_axes(); }
-  static double position(const Node& node) { return node.position(); }
 };
 
 /// The emulated axis ramps with 20 turns/s2: 10 rad/s2 of the wheel, of which a stop is owed 8.
@@ -137,7 +136,6 @@ struct Odrive {
     setup.stop = {.brake_radps2 = 8.0, .tolerance_radps = 0.5};
     return setup;
   }
-  static double position(const Node& node) { return node.position(); }
 };
 
 /// The emulated motor ramps with 30000 erpm/s: 20 rad/s2 of the wheel, of which a stop is owed 15.
@@ -153,7 +151,6 @@ struct Vesc {
     setup.stop = {.brake_radps2 = 15.0, .tolerance_radps = 0.5};
     return setup;
   }
-  static double position(const Node& node) { return node.electrical_turns(); }
 };
 
 /// The emulated board of a Pioneer reports every 20 ms and ramps with 1000 mm/s2: 10 rad/s2 of the wheel, of which a

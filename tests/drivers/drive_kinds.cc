@@ -121,7 +121,7 @@ DriveKind cia402() {
         drive.objects().fix({0x6007, 0}, 3);
       }),
       .need_restart = kUnplugged,
-      .disobey = {on<Cia402>([](auto& drive) { drive.hang(); })},
+      .disobey = {on<Cia402>([](auto& drive) { drive.stick(); })},
       .fall_quiet = {on<Cia402>([](auto& drive) { drive.lose_feedback(); }), kUnplugged},
       .jump = on<Cia402>([](auto& drive) { drive.jump(100.0 * Cia402::kPerRad); }),
       .unproved = "node 5: 6007h:0 stops when the controller is lost: wanted 0003h, refused (read only): NOT PROVED",
@@ -199,8 +199,8 @@ DriveKind vescs() {
           .brakes_itself = true,
           .fault = DriveTrouble::kDriveFault,
           .broken = "VESC 24: fault 3 (gate driver)",
-          .break_down = on<Vesc>([](auto& drive) { drive.set_fault(3); }),
-          .mend = on<Vesc>([](auto& drive) { drive.set_fault(0); }),
+          .break_down = on<Vesc>([](auto& drive) { drive.raise_fault(3); }),
+          .mend = on<Vesc>([](auto& drive) { drive.raise_fault(0); }),
           .lose_watch = on<Vesc>([](auto& drive) { drive.set_timeout(1000, 0.0F); }),
           .restore_watch = on<Vesc>([](auto& drive) { drive.set_timeout(90, 10.0F); }),
           .need_restart = on<Vesc>([](auto& drive) { drive.go_deaf(); }),
@@ -281,7 +281,7 @@ DriveKind arcos_boards() {
               "RotDecel 800, TransVelMax 600, RotVelMax 250, Watchdog 2000 (wanted 40 to 100): NOT PROVED",
           .remedy = "set Watchdog in the board's FLASH (ARCOScfg), or allow_unproved at your own risk",
           .second_way = [](CanBus& bus) -> std::unique_ptr<EmergencyBrake> {
-            return std::make_unique<arcos::Stopper>(bus);
+            return std::make_unique<FrameBrake>(bus, arcos::stop_frames());
           },
           .foreign = "",
           .masters = {},

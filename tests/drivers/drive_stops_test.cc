@@ -96,7 +96,7 @@ TEST_CASE("a drive whose communication is reset, which makes it forget whom it w
 TEST_CASE("a drive that ignores the quick stop because of the other's fault is stopped by its watchdog") {
   Bench bench;
   bench.bring_to_two_radps();
-  bench.left.hang();
+  bench.left.stick();
   bench.right.raise_fault(0x2310);
   check_stops(bench, 2.0);
   CHECK(bench.base.trouble() == DriveTrouble::kEmergency);

@@ -80,7 +80,7 @@ TEST_CASE("VESCs over the kernel's bus are read back, drive, and stop when one o
   bench.drive(2.0, 50);
   CHECK(bench.left.erpm() == Approx(3000.0));
   CHECK(bench.wheels.right_radps == Approx(2.0));
-  bench.left.set_fault(3);
+  bench.left.raise_fault(3);
   bench.drive(2.0, 20);
   CHECK(bench.wheels.trouble == DriveTrouble::kDriveFault);
   CHECK(bench.right.erpm() == 0.0);

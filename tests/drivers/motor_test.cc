@@ -20,7 +20,7 @@ CanFrame extended(CanFrame made) {
 }  // namespace
 
 TEST_CASE("ODrive commands of node 3 begin at 060h") {
-  CHECK(odrive::set_axis_state(3, odrive::AxisState::kClosedLoop) == frame(0x067, {8, 0, 0, 0}));
+  CHECK(odrive::set_axis_state(3, odrive::kClosedLoop) == frame(0x067, {8, 0, 0, 0}));
   CHECK(odrive::set_velocity_mode(3, true) == frame(0x06B, {2, 0, 0, 0, 2, 0, 0, 0}));
   CHECK(odrive::set_velocity_mode(3, false) == frame(0x06B, {2, 0, 0, 0, 1, 0, 0, 0}));
   // -2.5 is C0200000h: sign, 2^1, 1.25.

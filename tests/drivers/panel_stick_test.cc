@@ -13,22 +13,22 @@ TEST_CASE("sticks count from a dead zone to the end while the dead man's button 
   static_cast<void>(bench.after(0ms));
   bench.write(event(EV_ABS, kY, -32767));
   static_cast<void>(bench.after(20ms));
-  CHECK(bench.panel.joystick().forward == 0.0);
+  CHECK(bench.watch.latest().forward == 0.0);
   bench.press(kDeadMan, false);
   bench.press(kDeadMan);
   static_cast<void>(bench.after(20ms));
-  CHECK(bench.panel.joystick().dead_man);
-  CHECK(bench.panel.joystick().forward == 0.0);  // pushed before: it has to come to its middle first
+  CHECK(bench.watch.latest().dead_man);
+  CHECK(bench.watch.latest().forward == 0.0);  // pushed before: it has to come to its middle first
   bench.write(event(EV_ABS, kY, 0));
   static_cast<void>(bench.after(20ms));
   bench.write(event(EV_ABS, kY, -32767));
   bench.write(event(EV_ABS, kX, 3276));  // a tenth to the right: at rest
   static_cast<void>(bench.after(20ms));
-  CHECK(bench.panel.joystick().forward == Approx(1.0));
-  CHECK(bench.panel.joystick().left == 0.0);
+  CHECK(bench.watch.latest().forward == Approx(1.0));
+  CHECK(bench.watch.latest().left == 0.0);
   bench.write(event(EV_ABS, kX, -18022));  // 0.55 to the left: (0.55 - 0.1) / 0.9
   static_cast<void>(bench.after(20ms));
-  CHECK(bench.panel.joystick().left == Approx(0.5).margin(1e-4));
+  CHECK(bench.watch.latest().left == Approx(0.5).margin(1e-4));
 }
 
 TEST_CASE("where the stick drives it takes the goal's place when it leaves its middle, while the dead man is held") {

@@ -40,7 +40,7 @@ TEST_CASE("a SICK scanner whose port speaks the other dialect is spoken to in th
   for (const auto dialect : {emulators::ColaDialect::kText, emulators::ColaDialect::kBinary}) {
     const bool is_text = dialect == emulators::ColaDialect::kText;
     auto line = std::make_unique<emulators::TcpServer>(std::uint16_t{0});
-    auto endpoint = std::make_unique<wire::TcpEndpoint>("127.0.0.1", line->port());
+    auto endpoint = wire::tcp_endpoint("127.0.0.1", line->port());
     tests::ScannerBench bench(
         std::make_unique<emulators::SickServer>(std::move(line), emulators::SickModel{.dialect = dialect}, round_room),
         std::move(endpoint),

@@ -15,9 +15,10 @@ namespace jaywalk::tests {
 /// a millisecond at a time, first the scanner, then the connection.
 class ScannerBench {
  public:
-  ScannerBench(std::unique_ptr<emulators::ScannerServer> scanner, std::unique_ptr<wire::Endpoint> endpoint,
+  ScannerBench(std::unique_ptr<emulators::ScannerServer> scanner, wire::Endpoint endpoint,
                std::unique_ptr<ScannerProtocol> protocol)
-      : server(std::move(scanner)), connection(std::move(endpoint), std::move(protocol), clock) {}
+      : server(std::move(scanner)),
+        connection(std::make_unique<wire::ByteLink>(std::move(endpoint)), std::move(protocol), clock) {}
 
   void run(Duration span) {
     for (const Time end = clock.now() + span; clock.now() < end;) {

@@ -18,7 +18,7 @@ using emulators::ColaDialect;
 template <class Server, class... Model>
 std::unique_ptr<ScannerBench> on_tcp(std::unique_ptr<ScannerProtocol> protocol, const Model&... model) {
   auto line = std::make_unique<emulators::TcpServer>(std::uint16_t{0});
-  auto endpoint = std::make_unique<wire::TcpEndpoint>("127.0.0.1", line->port());
+  auto endpoint = wire::tcp_endpoint("127.0.0.1", line->port());
   return std::make_unique<ScannerBench>(std::make_unique<Server>(std::move(line), model...), std::move(endpoint),
                                         std::move(protocol));
 }
@@ -28,7 +28,7 @@ std::unique_ptr<ScannerBench> on_line(std::unique_ptr<ScannerProtocol> protocol,
                                       const Model&... model) {
   auto line = serial_line();
   if (line == nullptr) return nullptr;
-  auto endpoint = std::make_unique<wire::SerialEndpoint>(line->path(), baud);
+  auto endpoint = wire::serial_endpoint(line->path(), baud);
   return std::make_unique<ScannerBench>(std::make_unique<Server>(std::move(line), model...), std::move(endpoint),
                                         std::move(protocol));
 }

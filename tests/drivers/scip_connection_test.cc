@@ -11,8 +11,8 @@ using namespace std::chrono_literals;
 TEST_CASE("a serial line with a scanner that still sends what somebody else asked for is quieted first") {
   auto line = tests::serial_line();
   if (line == nullptr) return;
-  auto endpoint = std::make_unique<wire::SerialEndpoint>(line->path(), 115200);
-  const wire::SerialEndpoint before(line->path(), 115200);
+  auto endpoint = wire::serial_endpoint(line->path(), 115200);
+  const wire::Endpoint before = endpoint;
   const auto world = [](std::size_t, std::span<float> range_m) { std::fill(range_m.begin(), range_m.end(), 2.0F); };
   tests::ScannerBench bench(std::make_unique<emulators::ScipServer>(std::move(line), emulators::ScipModel{}, world),
                             std::move(endpoint), std::make_unique<scip::ScipProtocol>());

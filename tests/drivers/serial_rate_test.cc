@@ -12,7 +12,7 @@ TEST_CASE("a serial line is opened at any rate, 256000 baud of an RPLIDAR A3 amo
   const auto line = tests::serial_line();
   if (!line) return;
   for (const std::uint32_t baud : {9600U, 115200U, 230400U, 256000U, 460800U, 1'000'000U, 74'880U}) {
-    const wire::FileDescriptor opened = wire::SerialEndpoint(line->path(), baud).open();
+    const wire::FileDescriptor opened = wire::serial_endpoint(line->path(), baud).open();
     REQUIRE(opened.get() >= 0);
     termios2 settings{};
     REQUIRE(::ioctl(opened.get(), TCGETS2, &settings) == 0);
@@ -25,6 +25,6 @@ TEST_CASE("a serial line is opened at any rate, 256000 baud of an RPLIDAR A3 amo
 }
 
 TEST_CASE("what is no rate is refused with what to give") {
-  CHECK_THROWS_WITH(wire::SerialEndpoint("/dev/ttyUSB0", 0), Catch::Contains("no serial line runs at 0 baud; give"));
-  CHECK_THROWS_AS(wire::SerialEndpoint("/dev/ttyUSB0", 5'000'000), StartupError);
+  CHECK_THROWS_WITH(wire::serial_endpoint("/dev/ttyUSB0", 0), Catch::Contains("no serial line runs at 0 baud; give"));
+  CHECK_THROWS_AS(wire::serial_endpoint("/dev/ttyUSB0", 5'000'000), StartupError);
 }

@@ -124,7 +124,7 @@ TEST_CASE("a setting that a scanner does not answer is counted and passed over a
 }
 
 TEST_CASE("a host that nobody knows is refused at start") {
-  CHECK_THROWS_AS(wire::TcpEndpoint("no such host.invalid", 2112), StartupError);
+  CHECK_THROWS_AS(wire::tcp_endpoint("no such host.invalid", 2112), StartupError);
 }
 
 TEST_CASE("the 16 real telegrams of a TiM come over TCP as they came from it") {
@@ -133,7 +133,7 @@ TEST_CASE("the 16 real telegrams of a TiM come over TCP as they came from it") {
   const std::vector<std::uint8_t> recorded = tests::read_bytes(path);
   emulators::TcpServer wire(0);
   tests::HandClock clock;
-  ScannerConnection connection(std::make_unique<wire::TcpEndpoint>("127.0.0.1", wire.port()),
+  ScannerConnection connection(std::make_unique<wire::ByteLink>(wire::tcp_endpoint("127.0.0.1", wire.port())),
                                std::make_unique<sick::SickProtocol>(sick::Cola::kB, sick::ScannerModel{}), clock);
   Duration least = 1s, most = 0s;
   Time before = kNever;
@@ -173,7 +173,7 @@ TEST_CASE("a connection with a thread of its own brings scans in real time and e
   const Time began = clock.now();
   Time ends;
   {
-    ScannerConnection connection(std::make_unique<wire::TcpEndpoint>("127.0.0.1", port),
+    ScannerConnection connection(std::make_unique<wire::ByteLink>(wire::tcp_endpoint("127.0.0.1", port)),
                                  std::make_unique<sick::SickProtocol>(sick::Cola::kB, sick::ScannerModel{}), clock);
     CHECK(connection.start());
     while (connection.latest().sequence < 5) {

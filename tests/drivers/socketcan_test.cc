@@ -182,13 +182,9 @@ TEST_CASE("a send that finds no room says so at once") {
   SocketCan bus(std::move(pair.driver), clock);
   CanFrame frame;
   frame.id = 0x201;
-  SendResult last = SendResult::kQueued;
   int sent = 0;
-  while (last == SendResult::kQueued && sent < 100000) {
-    last = bus.send(frame);
-    ++sent;
-  }
-  CHECK(last == SendResult::kQueueFull);
+  while (sent < 100000 && bus.send(frame)) ++sent;
+  CHECK(sent < 100000);
   can_frame raw{};
   REQUIRE(::recv(pair.kernel.get(), &raw, sizeof raw, 0) == sizeof raw);
   CHECK(raw.can_id == 0x201U);

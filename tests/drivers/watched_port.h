@@ -10,7 +10,7 @@ namespace jaywalk::tests {
 class WatchedPort final : public CanBus {
  public:
   WatchedPort(CanBus& bus, Clock& clock) noexcept : bus_(bus), clock_(clock) {}
-  [[nodiscard]] SendResult send(const CanFrame& frame) noexcept override {
+  [[nodiscard]] bool send(const CanFrame& frame) noexcept override {
     ++sent_;
     last_ = clock_.now();
     return bus_.send(frame);

@@ -1,12 +1,10 @@
 // Recordings that were cut or changed anywhere: refused in words, or read where the format cannot tell.
 #include <random>
 
-#include "apps/formats/bag_file.h"
-#include "apps/formats/bag_log.h"
-#include "hal/types/errors.h"
 #include "tests/exchange/made_bags.h"
 #include "tests/recording/scratch.h"
 #include "tests/support/catch.h"
+#include "tests/support/text.h"
 
 namespace jaywalk::exchange {
 namespace {
@@ -15,12 +13,9 @@ using namespace tests;
 
 /// Why it was refused, or what of it was left out; empty where it was read.
 std::string refusal(const std::string& file) {
-  try {
-    const std::string told = load_bag(file, {}).complaint();
-    return told.find("cut short") == std::string::npos ? "" : told;
-  } catch (const StartupError& error) {
-    return error.what();
-  }
+  std::string told;
+  const std::string refused = refusal_of([&] { return told = load_bag(file, {}).complaint(); });
+  return holds(told, "cut short") ? told : refused;
 }
 
 struct Format {
@@ -49,8 +44,8 @@ TEST_CASE("a recording that was cut anywhere is refused with a remedy, or told, 
     for (int k = 0; k < 60; ++k) {
       const std::string said = refusal(scratch.write(name, bytes.substr(0, random() % bytes.size())));
       INFO(name << ": " << said);
-      CHECK(said.find(name) != std::string::npos);
-      CHECK((said.find("; ") != std::string::npos || said.find("messages before count") != std::string::npos));
+      CHECK(holds(said, name));
+      CHECK((holds(said, "; ") || holds(said, "messages before count")));
     }
   }
 }
@@ -79,7 +74,7 @@ TEST_CASE("recordings full of random changes are refused in words or read, and n
       for (std::size_t changes = 1 + random() % 8; changes > 0; --changes)
         bad[random() % bad.size()] = static_cast<char>(random() % 3 == 0 ? 0xFF : random());
       const std::string said = refusal(scratch.write(name, bad));
-      CHECK((said.empty() || said.find(name) != std::string::npos));
+      CHECK((said.empty() || holds(said, name)));
     }
   }
 }
@@ -89,7 +84,7 @@ TEST_CASE("lengths that no file has are refused, and not asked of memory") {
   std::string chunk = mcap_of(made_drive(false), "");
   const std::size_t at = chunk.find('\6', 30);  // the chunk's record: its length, two times, then its unpacked size
   for (std::size_t k = 0; k < 8; ++k) chunk[at + 9 + 16 + k] = '\x7F';
-  CHECK(refusal(scratch.write("a.mcap", chunk)).find("a chunk of 9187201950435737471 bytes") != std::string::npos);
+  CHECK(holds(refusal(scratch.write("a.mcap", chunk)), "a chunk of 9187201950435737471 bytes"));
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <cstring>
 #include <map>
 
+#include "tests/recording/scratch.h"
 #include "tests/support/catch.h"
 
 namespace jaywalk::tests {
@@ -61,21 +62,18 @@ std::uint32_t crc(const std::string& s) {
   return static_cast<std::uint32_t>(crc32(0, reinterpret_cast<const Bytef*>(s.data()), static_cast<uInt>(s.size())));
 }
 
+/// A number of protobuf: seven bits a byte, the lowest first.
+std::string varint(std::uint64_t n) {
+  if (n <= 0x7FU) return {static_cast<char>(n)};
+  return static_cast<char>((n & 0x7FU) | 0x80U) + varint(n >> 7U);
+}
 /// A field of protobuf: its key, its length, its bytes.
 std::string proto(int field, const std::string& bytes) {
-  std::string out(1, static_cast<char>(field * 8 + 2));
-  for (std::size_t n = bytes.size(); true; n >>= 7U) {
-    out += static_cast<char>((n & 0x7FU) | (n > 0x7FU ? 0x80U : 0U));
-    if (n <= 0x7FU) return out + bytes;
-  }
+  return static_cast<char>(field * 8 + 2) + varint(bytes.size()) + bytes;
 }
-std::string proto(int field, double value) { return std::string(1, static_cast<char>(field * 8 + 1)) + raw(value); }
+std::string proto(int field, double value) { return static_cast<char>(field * 8 + 1) + raw(value); }
 std::string proto(int field, std::int64_t value) {
-  std::string out(1, static_cast<char>(field * 8));
-  for (auto n = static_cast<std::uint64_t>(value); true; n >>= 7U) {
-    out += static_cast<char>((n & 0x7FU) | (n > 0x7FU ? 0x80U : 0U));
-    if (n <= 0x7FU) return out;
-  }
+  return static_cast<char>(field * 8) + varint(static_cast<std::uint64_t>(value));
 }
 
 std::string ros2_name(std::string type) {
@@ -253,6 +251,11 @@ void write_sqlite(const std::string& file, const std::vector<MadeMessage>& messa
   }
   run("COMMIT");
   sqlite3_close(base);
+}
+
+sim::RecordedLog read_as_mcap(const std::vector<MadeMessage>& messages, const exchange::BagOptions& options) {
+  const Scratch scratch;
+  return exchange::load_bag(scratch.write("a.mcap", mcap_of(messages, "")), options);
 }
 
 std::vector<MadeMessage> made_foxglove_drive() {

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "apps/formats/bag_log.h"
+
 namespace jaywalk::tests {
 
 struct MadeMessage {
@@ -51,5 +53,17 @@ struct MadeFrame {
 /// An index record of `entries` that says `claimed` bytes and has `entries` * 12.
 [[nodiscard]] std::string ros1_index(std::size_t entries, std::size_t claimed);
 void write_sqlite(const std::string& file, const std::vector<MadeMessage>& messages, bool pack_each);
+
+/// The log that an MCAP file of the messages is read as.
+[[nodiscard]] sim::RecordedLog read_as_mcap(const std::vector<MadeMessage>& messages,
+                                            const exchange::BagOptions& options = {});
+
+/// Gives each message of a topic other bytes, of its time and its number from 0.
+template <class Bytes>
+void rewrite(std::vector<MadeMessage>& messages, const std::string& topic, const Bytes& bytes_of) {
+  int number = 0;
+  for (MadeMessage& message : messages)
+    if (message.topic == topic) message.bytes = bytes_of(message.ns, number++);
+}
 
 }  // namespace jaywalk::tests

@@ -15,14 +15,7 @@ namespace {
 constexpr float kInfinity = std::numeric_limits<float>::infinity(), kNan = std::numeric_limits<float>::quiet_NaN();
 const DriveModel kDrive{.wheel_radius_m = 0.1, .track_width_m = 0.4, .max_wheel_speed_radps = 10.0};
 
-LaserModel laser_of(std::uint32_t beams, double fov_rad = kPi, double rate_hz = 10.0) {
-  LaserModel laser;
-  laser.fov_rad = fov_rad;
-  laser.beams = beams;
-  laser.rate_hz = rate_hz;
-  laser.range_max_m = 12.0;
-  return laser;
-}
+const LaserModel kLaser{.robot_from_laser = {}, .fov_rad = kPi, .beams = 5, .rate_hz = 10.0, .range_max_m = 12.0};
 
 /// Stamped a millisecond after the one before.
 ScanMessage half_turn(std::vector<float> ranges) {
@@ -50,7 +43,7 @@ double rad(std::uint32_t angle) { return ros::kAngle_rad * static_cast<std::int3
 }  // namespace
 
 TEST_CASE("a ROS scan has the model's beams, the nearer hit of two, the one beside where there is none") {
-  ScanFeed feed(laser_of(5));
+  ScanFeed feed(kLaser);
   const auto same = feed.take(half_turn({1, 2, 3, kInfinity, kNan}), Time{5s});
   REQUIRE(same->beam_count == 5);
   CHECK(same->first_angle_rad == Approx(-kPi / 2.0));
@@ -70,7 +63,7 @@ TEST_CASE("a ROS scan has the model's beams, the nearer hit of two, the one besi
 }
 
 TEST_CASE("a ROS scan is stamped at its first beam, its sweep is one period at most") {
-  ScanFeed feed(laser_of(5));
+  ScanFeed feed(kLaser);
   ScanMessage scan = half_turn({1, 2, 3, 4, 5});
   const auto stamp_s = [&](Duration arrival) {
     return static_cast<double>(feed.take(scan, Time{arrival})->stamp_ns) * 1e-9;
@@ -89,7 +82,7 @@ TEST_CASE("a ROS scan is stamped at its first beam, its sweep is one period at m
 }
 
 TEST_CASE("what is no scan has no beams") {
-  ScanFeed feed(laser_of(5));
+  ScanFeed feed(kLaser);
   CHECK(feed.take(half_turn({}), Time{5s})->beam_count == 0);
   CHECK(feed.take(half_turn({1, 2}), Time{5s})->beam_count == 0);
   const auto with = [&](auto change) {
@@ -102,8 +95,7 @@ TEST_CASE("what is no scan has no beams") {
     CHECK(with([bad](auto& s) { s.angle_step_rad = bad; }) == 0);
   }
   CHECK(with([](auto& s) { s.angle_step_rad = 0.0F; }) == 0);
-  CHECK(with([](auto& s) { s.range_max_m = kNan; }) == 0);
-  CHECK(with([](auto& s) { s.range_max_m = 0.0F; }) == 0);
+  for (const float bad : {kNan, 0.0F}) CHECK(with([bad](auto& s) { s.range_max_m = bad; }) == 0);
   CHECK(with([](auto& s) { s.range_min_m = -0.01F; }) == 5);  // as some drivers have it
   CHECK(with([](auto& s) { s.range_max_m = kInfinity; }) == 5);
 }

@@ -7,8 +7,8 @@
 #include <memory>
 
 #include "apps/formats/ros_input.h"
-#include "firmware/control_setup.h"
 #include "tests/support/catch.h"
+#include "tests/support/text.h"
 
 namespace jaywalk::exchange {
 namespace {
@@ -17,7 +17,10 @@ using namespace std::chrono_literals;
 
 constexpr Duration kWall = std::chrono::seconds(1'700'000'000);
 
+/// A tick's record, and the messages told of it.
 struct Told {
+  const RobotModel model = p3dx();
+  std::unique_ptr<TickRecord> t = std::make_unique<TickRecord>();
   std::map<std::size_t, std::vector<std::string>> messages;
   std::vector<Time> stamps;
   RosTopics topics{[this](std::size_t topic, Time stamp, std::string message) {
@@ -26,24 +29,19 @@ struct Told {
                    },
                    kWall};
 
-  void tick(TickRecord& t, const RobotModel& model) { topics.add(t, {}, t.path, model); }
+  /// The wheels have rolled straight on for `rolled_m`, the robot is believed at `map_from_robot`.
+  void roll(double seconds, double rolled_m, const Pose2& map_from_robot) {
+    t->now = t->wheels.stamp = time_from_seconds(seconds);
+    ++t->wheels.sequence;
+    t->wheels.left_rad = t->wheels.right_rad = rolled_m / model.drive.wheel_radius_m;
+    t->pose.map_from_robot = map_from_robot;
+  }
+  void tell() { topics.add(*t, {}, t->path, model); }
 };
 
-/// A tick at `seconds`, the wheels having rolled straight on for `rolled_m`, the robot believed at `map_from_robot`.
-void set(TickRecord& t, double seconds, double rolled_m, const Pose2& map_from_robot, const DriveModel& drive) {
-  t.now = time_from_seconds(seconds);
-  t.wheels.stamp = t.now;
-  ++t.wheels.sequence;
-  t.wheels.left_rad = t.wheels.right_rad = rolled_m / drive.wheel_radius_m;
-  t.pose.map_from_robot = map_from_robot;
-}
-
 TEST_CASE("map, odom, base_link and laser stand in one another as REP 105 has it, the pose in the map among them") {
-  const RobotModel model = p3dx();
   Told told;
-  auto t = std::make_unique<TickRecord>();
-  for (int k = 0; k < 50; ++k)
-    set(*t, 1.0 + 0.02 * k, 0.01 * k, {3.0, 4.0 + 0.01 * k, kPi / 2}, model.drive), told.tick(*t, model);
+  for (int k = 0; k < 50; ++k) told.roll(1.0 + 0.02 * k, 0.01 * k, {3.0, 4.0 + 0.01 * k, kPi / 2}), told.tell();
   REQUIRE(told.messages[kTf].size() == 50);
   const auto frames = read_transforms(told.messages[kTf].back(), Wire::kCdr);
   REQUIRE((frames && frames->size() == 2));
@@ -78,21 +76,11 @@ TEST_CASE("the first map is told once something of it is known") {
 }
 
 TEST_CASE("all stamps are the wall clock's where it is known") {
-  const RobotModel model = p3dx();
   Told told;
-  auto t = std::make_unique<TickRecord>();
-  set(*t, 2.0, 0.0, {}, model.drive);
-  told.tick(*t, model);
+  told.roll(2.0, 0.0, {});
+  told.tell();
   for (const Time stamp : told.stamps) CHECK(stamp == time_from_seconds(2.0) + kWall);
   CHECK(read_odometry(told.messages[kOdom].front(), Wire::kCdr)->stamp == time_from_seconds(2.0) + kWall);
-}
-
-TEST_CASE("a recording's head keeps the wall clock, and has none where there was none") {
-  ControlSetup setup;
-  setup.model = p3dx();
-  CHECK(to_text(setup).find("unix_from_loop") == std::string::npos);
-  setup.unix_from_loop = kWall + Duration{7};
-  CHECK(setup_from_text(to_text(setup), "here").unix_from_loop == kWall + Duration{7});
 }
 
 TEST_CASE("each of two scanners has a topic and a frame of its own, and one alone the plain ones") {
@@ -105,19 +93,19 @@ TEST_CASE("each of two scanners has a topic and a frame of its own, and one alon
   CHECK(of_scanner("/scan", model, 0) == "/scan_front");
   CHECK(of_scanner("/scan", model, 1) == "/scan_rear");
   Told told;
-  auto t = std::make_unique<TickRecord>();
-  t->scan.sequence = 1, t->scan.beam_count = 3, t->scan.range_max_m = 9.0F;
-  REQUIRE(t->other_scans.push_back(t->scan));
+  LaserScan& scan = told.t->scan;
+  scan.sequence = 1, scan.beam_count = 3, scan.range_max_m = 9.0F;
+  REQUIRE(told.t->other_scans.push_back(scan));
   constexpr std::uint32_t kAll = kAllTopics | (1U << kOtherScans);
   for (const std::uint32_t sequence : {1U, 1U, 2U}) {
-    set(*t, 1.0, 0.0, {}, model.drive);
-    t->other_scans[0].sequence = sequence;
-    told.topics.add(*t, {}, t->path, model, kAll);
+    told.roll(1.0, 0.0, {});
+    told.t->other_scans[0].sequence = sequence;
+    told.topics.add(*told.t, {}, told.t->path, model, kAll);
   }
   CHECK(told.messages[kScan].size() == 1);
   CHECK(told.messages[kOtherScans].size() == 2);  // each as it is new
-  CHECK(told.messages[kScan].front().find("laser_front") != std::string::npos);
-  CHECK(told.messages[kOtherScans].front().find("laser_rear") != std::string::npos);
+  CHECK(holds(told.messages[kScan].front(), "laser_front"));
+  CHECK(holds(told.messages[kOtherScans].front(), "laser_rear"));
   const auto fixed = read_transforms(told.messages[kTfStatic].front(), Wire::kCdr);
   REQUIRE((fixed && fixed->size() == 2));
   CHECK(fixed->at(1).child == "laser_rear");
@@ -125,12 +113,10 @@ TEST_CASE("each of two scanners has a topic and a frame of its own, and one alon
 }
 
 TEST_CASE("without wheels odom is the map") {
-  const RobotModel model = p3dx();
   Told told;
-  auto t = std::make_unique<TickRecord>();
-  t->now = time_from_seconds(1.0);
-  t->pose.map_from_robot = {1.0, 2.0, 0.5};
-  told.tick(*t, model);
+  told.t->now = time_from_seconds(1.0);
+  told.t->pose.map_from_robot = {1.0, 2.0, 0.5};
+  told.tell();
   const auto frames = read_transforms(told.messages[kTf].front(), Wire::kCdr);
   REQUIRE(frames);
   CHECK(frames->at(0).parent_from_child.translation().norm() == 0.0);

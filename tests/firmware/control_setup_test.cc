@@ -5,6 +5,7 @@
 #include "apps/rivals/paper_mode.h"
 #include "hal/types/errors.h"
 #include "tests/support/catch.h"
+#include "tests/support/text.h"
 
 using namespace jaywalk;
 
@@ -18,6 +19,8 @@ TEST_CASE("a setup comes back from its text bit for bit") {
   setup.wheels = false;
   setup.comfort_distance_m = 1.5;
   setup.given_movers = true;
+  setup.unix_from_loop = std::chrono::seconds(1'700'000'000) + Duration{7};
+  (void)setup.model.laser.blanked.push_back({1.0 / 3.0, 0.5});
   const ControlSetup back = setup_from_text(to_text(setup), "here");
   CHECK(to_text(back) == to_text(setup));
   CHECK(back.start == setup.start);
@@ -26,6 +29,16 @@ TEST_CASE("a setup comes back from its text bit for bit") {
   CHECK_FALSE(back.wheels);
   CHECK(back.comfort_distance_m == 1.5);
   CHECK(back.given_movers);
+  CHECK(back.unix_from_loop == setup.unix_from_loop);
+  REQUIRE(back.model.laser.blanked.size() == 1);
+  CHECK(back.model.laser.blanked[0].from_rad == 1.0 / 3.0);
+  CHECK(back.model.laser.blanked[0].to_rad == 0.5);
+}
+
+TEST_CASE("a setup without wall clock and blanked sectors says nothing of them") {
+  const std::string text = to_text(ControlSetup{});
+  CHECK_FALSE(holds(text, "unix_from_loop"));
+  CHECK(setup_from_text(text, "here").model.laser.blanked.empty());
 }
 
 TEST_CASE("movers come from outside where the setup says so, and in mode paper") {
@@ -47,25 +60,9 @@ TEST_CASE("mode paper is refused where its planner is not, and plans by it where
   CHECK(make_planner(setup).planner->view_field().of == FieldView::Of::kPotential);
 }
 
-TEST_CASE("blanked sectors are part of a setup's text, and one without them has none") {
-  ControlSetup setup;
-  CHECK(setup_from_text(to_text(setup), "here").model.laser.blanked.empty());
-  (void)setup.model.laser.blanked.push_back({1.0 / 3.0, 0.5});
-  const Blanking back = setup_from_text(to_text(setup), "here").model.laser.blanked;
-  REQUIRE(back.size() == 1);
-  CHECK(back[0].from_rad == 1.0 / 3.0);
-  CHECK(back[0].to_rad == 0.5);
-}
-
 TEST_CASE("text that is no setup is refused with its place") {
   CHECK_THROWS_AS(setup_from_text("{}", "a.jwr"), StartupError);
-  std::string refusal;
-  try {
-    static_cast<void>(setup_from_text("nonsense", "a.jwr"));
-  } catch (const StartupError& error) {
-    refusal = error.what();
-  }
-  CHECK(refusal.rfind("a.jwr: ", 0) == 0);
+  CHECK(refusal_of([] { return setup_from_text("nonsense", "a.jwr"); }).starts_with("a.jwr: "));
 }
 
 TEST_CASE("a robot plans with the circle that holds it, if that is little wider than the one inside it") {

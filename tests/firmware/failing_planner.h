@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "planner/cost_to_go/planner.h"
+#include "tests/firmware/simulated_drive.h"
 
 namespace jaywalk::test {
 
@@ -25,6 +26,18 @@ class FailingPlanner final : public Planner {
  private:
   std::unique_ptr<Planner> planner_;
   Plan failed_;
+};
+
+/// The drive "crossing" by a planner that can fail.
+struct FailingDrive : SimulatedDrive {
+  explicit FailingDrive(const Edit& edit, bool constant_speed = false)
+      : SimulatedDrive("crossing", 1, edit, PlanMode::kFull, "", [&](ControlSetup& setup) {
+          setup.constant_speed = constant_speed;
+          setup.make_planner = [](const ControlSetup& of) {
+            return ChosenPlanner{std::make_unique<FailingPlanner>(of.planner()), ""};
+          };
+        }) {}
+  void fail(bool fails) { dynamic_cast<FailingPlanner&>(planner()).fails = fails; }
 };
 
 }  // namespace jaywalk::test

@@ -8,14 +8,6 @@ using namespace jaywalk;
 
 namespace {
 
-/// A drive without movers whose fault begins after 5 s, when the robot is under way, and lasts 3 s.
-SimulatedDrive drive_with(sim::FaultKind kind) {
-  return {"crossing", 1, [kind](sim::Scenario& scenario) {
-            scenario.wanderers.clear();
-            scenario.faults = {{.at_s = 5.0, .for_s = 3.0, .kind = kind}};
-          }};
-}
-
 double speed(const SimulatedDrive& drive) { return std::fabs(drive.truth().twist.v_mps); }
 
 void check_stops_for(sim::FaultKind kind, Reason reason) {
@@ -30,7 +22,8 @@ void check_stops_for(sim::FaultKind kind, Reason reason) {
 
 }  // namespace
 
-TEST_CASE("scans that stop coming, come as no numbers or come cut short stop the robot") {
+TEST_CASE("scans that stop coming, come as no numbers or cut short, and wheels that fall silent stop the robot") {
+  check_stops_for(sim::FaultKind::kWheelsStale, Reason::kWheelsStale);
   check_stops_for(sim::FaultKind::kScanStale, Reason::kScanStale);
   check_stops_for(sim::FaultKind::kScanNan, Reason::kScanInvalid);
   check_stops_for(sim::FaultKind::kScanShort, Reason::kScanInvalid);
@@ -46,23 +39,17 @@ TEST_CASE("a scanner that shows one scan again and again stops the robot within 
   CHECK(speed(drive) < 0.01);
   drive.drive(4.0);  // the fault is over
   CHECK(speed(drive) > 0.1);
-  const Vec2 believed = drive.tick().pose.map_from_robot.position();
-  CHECK(distance(believed, drive.truth().map_from_robot.position()) < 0.05);
+  CHECK(drive.off_m(drive.tick()) < 0.05);
 }
 
 TEST_CASE("a wheel without grip for a second does not lose the robot its way") {
   SimulatedDrive drive = drive_with(sim::FaultKind::kWheelSlip);
   double farthest_m = 0.0;
   (void)drive.drive(9.0, [&](const TickRecord& t) {
-    farthest_m =
-        std::max(farthest_m, distance(t.pose.map_from_robot.position(), drive.truth().map_from_robot.position()));
+    farthest_m = std::max(farthest_m, drive.off_m(t));
     return false;
   });
   CHECK(farthest_m < 0.1);
-}
-
-TEST_CASE("wheels that fall silent stop the robot") {
-  check_stops_for(sim::FaultKind::kWheelsStale, Reason::kWheelsStale);
 }
 
 TEST_CASE("when scans come again the robot goes on by itself") {
@@ -91,12 +78,10 @@ TEST_CASE("a base whose reports come every 10 to 100 ms, up to 60 ms late, drive
     });
     Reason named = Reason::kNone;
     double off_m = 0.0;
-    const bool reached = drive.drive(60.0, [&](const TickRecord& t) {
+    CHECK(drive.arrives(60.0, [&](const TickRecord& t) {
       named |= without(t.verdict.reasons, kNoFaults);
-      off_m = std::max(off_m, distance(t.pose.map_from_robot.position(), drive.truth().map_from_robot.position()));
-      return drive.to_goal_m() < 0.3;
-    });
-    CHECK(reached);
+      off_m = std::max(off_m, drive.off_m(t));
+    }));
     CHECK(to_string(named) == "");
     CHECK(off_m < 0.12);
   }
@@ -109,11 +94,7 @@ TEST_CASE("rain on the scanner does not hold the robot up") {
       if (rains) scenario.faults = {{.at_s = 2.0, .for_s = 1e3, .kind = sim::FaultKind::kRain}};
     });
     double seconds = 0.0;
-    CHECK(drive.drive(90.0, [&](const TickRecord& t) {
-      seconds = to_seconds(t.now);
-      return drive.to_goal_m() < 0.3;
-    }));
-    CHECK(drive.truth().contacts == 0);
+    CHECK(drive.arrives(90.0, [&](const TickRecord& t) { seconds = to_seconds(t.now); }));
     return seconds;
   };
   CHECK(seconds_to_goal(true) < 1.15 * seconds_to_goal(false));

@@ -4,7 +4,6 @@
 
 #include "tests/firmware/relived.h"
 #include "tests/firmware/simulated_drive.h"
-#include "tests/support/allocation_guard.h"
 #include "tests/support/catch.h"
 
 using namespace jaywalk;
@@ -125,14 +124,12 @@ TEST_CASE("a wheelchair that is to look out of a dead end that it cannot turn in
 }
 
 TEST_CASE("a robot that keeps its speed does not turn at the goal") {
-  SimulatedDrive drive(
-      "door", 1,
-      [](sim::Scenario& s) {
-        s.model = p3dx();
-        s.start = {6.0, 4.1, 0.0};
-        s.goal_heading_rad = kPi;
-      },
-      PlanMode::kPaper);
+  const auto to_look_back = [](sim::Scenario& s) {
+    s.model = p3dx();
+    s.start = {6.0, 4.1, 0.0};
+    s.goal_heading_rad = kPi;
+  };
+  SimulatedDrive drive("door", 1, to_look_back, PlanMode::kPaper);
   CHECK(drive.drive(10.0, [&](const TickRecord&) { return drive.to_goal_m() < 0.1; }));
   CHECK_FALSE(drive.loop().turns_at_goal());
   CHECK(drive.truth().twist.v_mps > 0.5);
@@ -142,22 +139,14 @@ TEST_CASE("turning at the goal asks nothing of the heap and replays to the same 
   const std::string file = (std::filesystem::temp_directory_path() / "jaywalk_goal_heading.jwr").string();
   int turning = 0;
   {
-    SimulatedDrive drive(
-        "door", 1,
-        [](sim::Scenario& s) {
-          s.start = {6.2, 4.1, 0.0};
-          s.goal_heading_rad = kPi;
-        },
-        PlanMode::kFull, file);
-    std::uint64_t calls = 0;
-    for (int k = 0; k < 50 * 12; ++k) {
-      drive.sleep();
-      const AllocationGuard guard;
-      (void)drive.tick_now();
-      calls += guard.calls();
+    const auto to_look_back = [](sim::Scenario& s) {
+      s.start = {6.2, 4.1, 0.0};
+      s.goal_heading_rad = kPi;
+    };
+    SimulatedDrive drive("door", 1, to_look_back, PlanMode::kFull, file);
+    CHECK(drive.heap_calls(50 * 12, [&](const TickRecord&) {
       turning += drive.loop().turns_at_goal() && drive.truth().twist.w_radps != 0.0 ? 1 : 0;
-    }
-    CHECK(calls == 0);
+    }) == 0);
     REQUIRE(drive.recorder().close());
   }
   CHECK(turning > 50);

@@ -11,7 +11,7 @@ namespace {
 
 /// The scenario's own map, whose cells are 0.1 m wide and begin at the origin.
 std::shared_ptr<const KnownMap> known(const std::string& map) {
-  const sim::Raster raster = sim::load_raster_map(std::string(JAYWALK_SCENARIOS) + "/../maps/" + map + ".yaml").raster;
+  const sim::Raster raster = sim::load_raster(std::string(JAYWALK_SCENARIOS) + "/../maps/" + map + ".yaml");
   KnownMap known{raster.cell_m, {0, 0}, raster.width, raster.height, {}};
   for (const std::uint8_t solid : raster.solid) known.cells.push_back(solid != 0 ? KnownCell::kWall : KnownCell::kFree);
   return std::make_shared<const KnownMap>(std::move(known));
@@ -45,8 +45,7 @@ Knows drive(const std::shared_ptr<const KnownMap>& map, double drive_s) {
   const Pose2 here = drive.truth().map_from_robot;
   knows.to_go_s = drive.loop().plan().guide.time_to_go(static_cast<float>(here.x), static_cast<float>(here.y));
   drive.drive(drive_s, [&](const TickRecord& t) {
-    knows.error_m =
-        std::max(knows.error_m, distance(t.pose.map_from_robot.position(), drive.truth().map_from_robot.position()));
+    knows.error_m = std::max(knows.error_m, drive.off_m(t));
     return false;
   });
   CHECK(drive.truth().contacts == 0);

@@ -10,13 +10,6 @@ using namespace jaywalk;
 
 namespace {
 
-SimulatedDrive drive_with(sim::FaultKind kind, double at_s) {
-  return {"crossing", 1, [&](sim::Scenario& scenario) {
-            scenario.wanderers.clear();
-            scenario.faults = {{.at_s = at_s, .for_s = 100.0, .kind = kind}};
-          }};
-}
-
 /// At 0.2 m/s, or 0.3 rad/s, as the wheels are commanded or feel it.
 bool drives(const TickRecord& t, const DriveModel& drive) {
   const double turn =
@@ -33,6 +26,8 @@ bool turns(const TickRecord& t, const DriveModel& drive) {
   return drive.wheel_radius_m * apart / drive.track_width_m >= 0.3 &&
          apart >= 0.25 * std::max(std::fabs(left), std::fabs(right));
 }
+
+bool accuses(const TickRecord& t) { return has(t.verdict.reasons, Reason::kWheelsDisobey | Reason::kMotionMismatch); }
 
 using Counts = bool (*)(const TickRecord&, const DriveModel&);
 
@@ -68,7 +63,7 @@ void check_stays(SimulatedDrive& drive) {
 /// The fault is named within half a second of what counts as driving, and the robot then stands.
 void check_told(sim::FaultKind kind, Reason reason, double at_s, double limit_s) {
   CAPTURE(at_s);
-  SimulatedDrive drive = drive_with(kind, at_s);
+  SimulatedDrive drive = drive_with(kind, at_s, 100.0);
   const Told told = drive_until_told(drive, reason, at_s, limit_s, drives);
   REQUIRE(told.told_s);
   CHECK(told.driving_s <= 0.5 + 1e-9);
@@ -97,7 +92,7 @@ TEST_CASE("swapped wheels and a mirrored scanner are told from the scans in the 
     int times_told = 0;
     for (const double at_s : {0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0}) {
       CAPTURE(static_cast<int>(kind), at_s);
-      SimulatedDrive drive = drive_with(kind, at_s);
+      SimulatedDrive drive = drive_with(kind, at_s, 100.0);
       const Told told = drive_until_told(drive, Reason::kMotionMismatch, at_s, at_s + 10.0, turns);
       CHECK(told.driving_s <= 0.5 + 1e-9);
       if (!told.told_s) continue;  // nor did it turn, as the line before says
@@ -112,22 +107,14 @@ TEST_CASE("a robot that is connected rightly is never accused, among people or o
   for (const char* scenario : {"crossing", "long_way_slip", "door"}) {
     CAPTURE(scenario);
     SimulatedDrive drive(scenario, 2);
-    const bool accused = drive.drive(40.0, [](const TickRecord& t) {
-      return has(t.verdict.reasons, Reason::kWheelsDisobey | Reason::kMotionMismatch);
-    });
-    CHECK_FALSE(accused);
+    CHECK_FALSE(drive.drive(40.0, accuses));
   }
 }
 
 TEST_CASE("in mode paper nothing is accused: its verdicts are not applied") {
-  SimulatedDrive drive(
-      "crossing", 1,
-      [](sim::Scenario& scenario) {
-        scenario.faults = {{.at_s = 0.0, .for_s = 100.0, .kind = sim::FaultKind::kLeftWheelReversed}};
-      },
-      PlanMode::kPaper);
-  const bool accused = drive.drive(3.0, [](const TickRecord& t) {
-    return has(t.verdict.reasons, Reason::kWheelsDisobey | Reason::kMotionMismatch);
-  });
-  CHECK_FALSE(accused);
+  const auto reverse_a_wheel = [](sim::Scenario& scenario) {
+    scenario.faults = {{.at_s = 0.0, .for_s = 100.0, .kind = sim::FaultKind::kLeftWheelReversed}};
+  };
+  SimulatedDrive drive("crossing", 1, reverse_a_wheel, PlanMode::kPaper);
+  CHECK_FALSE(drive.drive(3.0, accuses));
 }

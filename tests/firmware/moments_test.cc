@@ -23,14 +23,14 @@ std::vector<std::string> scenes() {
   return names;
 }
 
-struct Scene {
+struct FoundScene {
   std::uint32_t forced = 0, touched = 0;
   double driven_m = 0.0;
 };
 
-Scene drive_through(const std::string& name) {
+FoundScene drive_through(const std::string& name) {
   SimulatedDrive drive(std::filesystem::relative(JAYWALK_MOMENTS, JAYWALK_SCENARIOS).string() + "/" + name, 1);
-  Scene scene;
+  FoundScene scene;
   drive.drive(kScene_s, [&](const TickRecord&) {
     scene.driven_m += std::fabs(drive.truth().twist.v_mps) * to_seconds(drive.setup().tick());
     return false;
@@ -42,12 +42,9 @@ Scene drive_through(const std::string& name) {
 
 }  // namespace
 
-// The test fails at present: the robot forces a mover in 10 of 30 scenes, and 3 are allowed. It touches no mover. In
-// scene 08 a walker comes from behind at 1.2 m/s, outside the laser's field of view, and passes the robot closely; with
-// a price of kWound = 2 the walker touched the robot. With a body 0.46 m long and 0.38 m wide the robot forced a mover
-// in 4 scenes and drove 70 m. The P3-DX's rear end, 0.30 m behind the axle, made the difference; its width did not.
-// Each scene runs differently after any change of the motion. The baseline planners force a mover in 15 or 16 scenes
-// and collide in 3 to 13 (docs/explanation/results.md).
+// The test fails at present: the robot forces a mover in 10 of 30 scenes, and 3 are allowed; with a body that ends
+// 0.23 m behind the axle, not 0.30 m, in 4. In scene 08 a walker comes from behind, outside the laser's field of view.
+// The baseline planners force a mover in 15 or 16 scenes and collide in 3 to 13 (docs/explanation/results.md).
 TEST_CASE("in thirty scenes of failed runs the robot collides with nobody, forces at most three movers and drives on",
           "[long]") {
   const std::vector<std::string> names = scenes();
@@ -55,7 +52,7 @@ TEST_CASE("in thirty scenes of failed runs the robot collides with nobody, force
   int forced = 0;
   double driven_m = 0.0;
   for (const std::string& name : names) {
-    const Scene scene = drive_through(name);
+    const FoundScene scene = drive_through(name);
     CAPTURE(name);
     CHECK(scene.touched == 0);
     forced += scene.forced > 0 ? 1 : 0;

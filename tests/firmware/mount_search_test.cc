@@ -33,8 +33,8 @@ sim::RecordedLog recorded_with(double yaw, double lasts_s = 19.0) {
   for (std::uint32_t k = 0; k * kScan_s < lasts_s; ++k) {
     const Pose2 robot = pose_after(k * kScan_s);
     const LaserScan scan = scan_of(hall(), robot * Pose2{0.0, 0.0, yaw}, k + 1, 0.01, kFan);
-    log.scans.push_back({scan.stamp, log.range_m.size(), scan.beam_count, scan.first_angle_rad, scan.angle_step_rad,
-                         scan.range_min_m, scan.range_max_m});
+    log.scans.push_back({scan.stamp, k + 1, log.range_m.size(), scan.beam_count, scan.first_angle_rad,
+                         scan.angle_step_rad, scan.range_min_m, scan.range_max_m});
     log.range_m.insert(log.range_m.end(), scan.range_m.begin(), scan.range_m.begin() + scan.beam_count);
     log.odometry.push_back({scan.stamp, robot, std::nullopt});
   }

@@ -22,7 +22,7 @@ bool arrives(Vec2 goal, double within_s) {
     s.model.laser.range_max_m = 10.0;
     s.pose_source.enabled = true;
   });
-  return drive.drive(within_s, [&](const TickRecord&) { return drive.to_goal_m() < 0.3; });
+  return drive.arrives(within_s);
 }
 
 }  // namespace

@@ -2,14 +2,12 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <optional>
 #include <vector>
 
-#include "apps/rivals/paper_mode.h"
-#include "firmware/recording/recorded_hal.h"
-#include "firmware/recording/recorder.h"
 #include "planner/paper/paper.h"
 #include "planner/paper/paper_planner.h"
-#include "tests/firmware/simulated_drive.h"
+#include "tests/firmware/relived.h"
 #include "tests/planner/shuffled_executor.h"
 #include "tests/support/catch.h"
 #if JAYWALK_HAS_CUDA
@@ -37,6 +35,8 @@ class ComparingPlanner final : public Planner {
   [[nodiscard]] const Plan& collect() noexcept override { return inner_->collect(); }
   [[nodiscard]] FieldView view_field() const override { return inner_->view_field(); }
   [[nodiscard]] const char* backend() const noexcept override { return inner_->backend(); }
+
+  [[nodiscard]] int executors() const { return static_cast<int>(others_.size()); }
 
   int alike = 0;
   std::size_t movers = 0;
@@ -69,29 +69,6 @@ std::vector<std::unique_ptr<Planner>> every_executor(const paper::PaperConfig& c
   return planners;
 }
 
-/// Lives through a recording up to the last of `count` requests from the `first` on.
-void check_plans(const std::string& file, int first, int count) {
-  RecordingReader reader(file);
-  ControlSetup setup = setup_from_text(reader.setup(), file);
-  equip(setup);
-  paper::PaperConfig config{setup.planner(), setup.mover_radius_m()};
-  auto inner = paper::make_cpu_paper_planner(config);
-  config.max_side_cells = config.side_cells;
-  auto others = every_executor(config);
-  const auto executors = static_cast<int>(others.size());
-  ComparingPlanner planner(std::move(inner), std::move(others), first, count);
-  TickRecord recorded;
-  RecordedHal devices(recorded);
-  Recorder nowhere({});
-  ControlLoop loop(setup, devices.hal(), planner, nowhere);
-  while (reader.next(recorded)) {
-    loop.tick(recorded.now);
-    nowhere.drain();
-  }
-  CHECK(planner.alike == count * executors);
-  CHECK(planner.movers > 0);
-}
-
 }  // namespace
 
 TEST_CASE("the plans of a recorded drive among walkers have the same bytes on every executor") {
@@ -102,6 +79,13 @@ TEST_CASE("the plans of a recorded drive among walkers have the same bytes on ev
     drive.drive(5.0);
     REQUIRE(drive.recorder().close());
   }
-  check_plans(file, kFirst, kCount);
-  std::remove(file.c_str());
+  std::optional<ComparingPlanner> planner;
+  (void)relive(file, [&](const ControlSetup& setup) -> Planner& {
+    paper::PaperConfig config{setup.planner(), setup.mover_radius_m()};
+    auto inner = paper::make_cpu_paper_planner(config);
+    config.max_side_cells = config.side_cells;
+    return planner.emplace(std::move(inner), every_executor(config), kFirst, kCount);
+  });
+  CHECK(planner->alike == kCount * planner->executors());
+  CHECK(planner->movers > 0);
 }

@@ -1,6 +1,7 @@
 #include "tests/firmware/simulated_drive.h"
 
 #include "apps/rivals/paper_mode.h"
+#include "tests/support/allocation_guard.h"
 
 namespace jaywalk {
 
@@ -32,7 +33,19 @@ void SimulatedDrive::sleep() {
 
 const TickRecord& SimulatedDrive::tick() {
   sleep();
-  return tick_now();
+  return loop_->tick(due_);
+}
+
+std::uint64_t SimulatedDrive::heap_calls(int ticks, const std::function<void(const TickRecord&)>& each) {
+  std::uint64_t calls = 0;
+  for (int k = 0; k < ticks; ++k) {
+    sleep();
+    const AllocationGuard guard;
+    const TickRecord& t = loop_->tick(due_);
+    calls += guard.calls();
+    if (each) each(t);
+  }
+  return calls;
 }
 
 bool SimulatedDrive::drive(double seconds, const std::function<bool(const TickRecord&)>& until) {
@@ -41,6 +54,18 @@ bool SimulatedDrive::drive(double seconds, const std::function<bool(const TickRe
     if (until && until(t)) return true;
   }
   return false;
+}
+
+bool SimulatedDrive::arrives(double limit_s, const std::function<void(const TickRecord&)>& each) {
+  const bool ended = drive(limit_s, [&](const TickRecord& t) {
+    if (each) each(t);
+    return to_goal_m() < 0.3 || truth().contacts > 0;
+  });
+  return ended && truth().contacts == 0;
+}
+
+double SimulatedDrive::off_m(const TickRecord& t) const {
+  return distance(t.pose.map_from_robot.position(), truth().map_from_robot.position());
 }
 
 double SimulatedDrive::to_goal_m() const { return distance(truth().map_from_robot.position(), setup_.goal); }

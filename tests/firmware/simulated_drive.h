@@ -20,19 +20,25 @@ class SimulatedDrive {
                  const std::function<void(ControlSetup&)>& edit_setup = {});
 
   const TickRecord& tick();
-  /// Sleeps until the next tick is due without ticking: what an allocation guard must not see.
-  void sleep();
-  const TickRecord& tick_now() noexcept { return loop_->tick(due_); }
+  /// Calls for heap memory within so many ticks; `each` looks at every one after it was counted.
+  std::uint64_t heap_calls(int ticks, const std::function<void(const TickRecord&)>& each = {});
   /// Ticks until `seconds` have passed or `until` says so; true when it did.
   bool drive(double seconds, const std::function<bool(const TickRecord&)>& until = {});
+  /// Ticks until the goal is 0.3 m away or something is touched; true at the goal, where nothing was touched.
+  bool arrives(double limit_s, const std::function<void(const TickRecord&)>& each = {});
 
   [[nodiscard]] const sim::Truth& truth() const { return simulation_->truth(); }
   [[nodiscard]] const ControlSetup& setup() const { return setup_; }
   [[nodiscard]] const ControlLoop& loop() const { return *loop_; }
   [[nodiscard]] Recorder& recorder() { return *recorder_; }
+  [[nodiscard]] Planner& planner() { return *planner_.planner; }
   [[nodiscard]] double to_goal_m() const;
+  /// From where the robot was believed in a tick to where it is.
+  [[nodiscard]] double off_m(const TickRecord& t) const;
 
  private:
+  void sleep();
+
   ControlSetup setup_;
   std::unique_ptr<sim::Simulation> simulation_;
   ChosenPlanner planner_;
@@ -40,5 +46,13 @@ class SimulatedDrive {
   std::unique_ptr<ControlLoop> loop_;
   Time due_{};
 };
+
+/// The drive "crossing" without movers, with a fault that by default begins when the robot is under way.
+inline SimulatedDrive drive_with(sim::FaultKind kind, double at_s = 5.0, double for_s = 3.0) {
+  return {"crossing", 1, [&](sim::Scenario& scenario) {
+            scenario.wanderers.clear();
+            scenario.faults = {{.at_s = at_s, .for_s = for_s, .kind = kind}};
+          }};
+}
 
 }  // namespace jaywalk

@@ -18,20 +18,13 @@ void check_arrives(const std::string& scenario, const Start& from, RobotModel mo
                    PlanMode mode = PlanMode::kFull) {
   INFO(scenario << " seed " << from.seed << " from " << from.start.x << " " << from.start.y << " "
                 << from.start.heading);
-  SimulatedDrive drive(
-      scenario, from.seed,
-      [&](sim::Scenario& s) {
-        s.start = from.start;
-        s.model = model;
-      },
-      mode);
+  const auto edit = [&](sim::Scenario& s) {
+    s.start = from.start;
+    s.model = model;
+  };
+  SimulatedDrive drive(scenario, from.seed, edit, mode);
   double backward = 0.0;
-  const bool arrived = drive.drive(limit_s, [&](const TickRecord&) {
-    backward = std::min(backward, drive.truth().twist.v_mps);
-    return drive.to_goal_m() < 0.3 || drive.truth().contacts > 0;
-  });
-  CHECK(arrived);
-  CHECK(drive.truth().contacts == 0);
+  CHECK(drive.arrives(limit_s, [&](const TickRecord&) { backward = std::min(backward, drive.truth().twist.v_mps); }));
   CHECK(backward > -0.31);  // 0.3 m/s and the wheels' slip
 }
 

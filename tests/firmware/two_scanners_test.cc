@@ -1,12 +1,7 @@
 // The whole controller with two scanners, on the simulated robot.
-#include <unistd.h>
-
-#include <filesystem>
-
 #include "hal/types/errors.h"
 #include "tests/firmware/relived.h"
 #include "tests/firmware/simulated_drive.h"
-#include "tests/support/allocation_guard.h"
 #include "tests/support/catch.h"
 
 using namespace jaywalk;
@@ -27,29 +22,13 @@ void add_rear(sim::Scenario& scenario) {
 TEST_CASE("a robot with two scanners reaches its goal among movers, and asks nothing of the heap") {
   SimulatedDrive drive("crossing", 2, add_rear);
   drive.drive(2.0);
-  std::uint64_t calls = 0;
-  for (int k = 0; k < 200; ++k) {
-    drive.sleep();
-    const AllocationGuard guard;
-    (void)drive.tick_now();
-    calls += guard.calls();
-  }
-  CHECK(calls == 0);
+  CHECK(drive.heap_calls(200) == 0);
   CHECK(drive.drive(120.0, [&](const TickRecord&) { return drive.to_goal_m() < 0.3; }));
   CHECK(drive.truth().contacts_caused == 0);
 }
 
 TEST_CASE("a recording of two scanners comes to the same commands again") {
-  const std::string file =
-      (std::filesystem::temp_directory_path() / ("jaywalk_two_" + std::to_string(::getpid()) + ".jwr")).string();
-  {
-    SimulatedDrive drive("map1_16", 7, add_rear, PlanMode::kFull, file);
-    drive.drive(10.0);
-    REQUIRE(drive.recorder().close());
-  }
-  const Relived relived = relive(file);
-  CHECK(relived.ticks == 500);
-  CHECK(relived.different == 0);
+  CHECK(different_commands(10.0, add_rear) == 0);
 }
 
 TEST_CASE("either of two scanners that is lost or frozen stops it, and it goes on once that is over") {

@@ -9,6 +9,7 @@
 
 #include "planner/prediction/mover_history.h"
 #include "tests/motion/guided.h"
+#include "tests/safety/scans.h"
 #include "tests/support/catch.h"
 
 using namespace jaywalk;
@@ -44,25 +45,43 @@ Track track_at(std::uint32_t id, Vec2 place, Vec2 velocity, Time stamp) {
           .last_seen = stamp};
 }
 
-LaserScan open_scan() {
-  LaserScan scan;
-  scan.beam_count = 361;
-  scan.first_angle_rad = -3.14159F;
-  scan.angle_step_rad = 0.0174533F;
-  scan.range_min_m = 0.05F, scan.range_max_m = 25.0F;
-  scan.range_m.fill(20.0F);
-  return scan;
-}
+/// Futures on open ground, or before a wall at x = 2 m.
+struct Drawn {
+  explicit Drawn(std::span<const MoverBelief> movers, std::uint32_t draw = 1, bool walled = false) {
+    if (walled) ground.wall({2.0, -4.0}, {2.0, 6.0});
+    futures.draw(movers, {}, {}, ground.towards({-3.0, -3.0}, {5.0, 5.0}), draw);
+  }
+
+  test::Guided ground;
+  Futures futures;
+};
+
+/// What is remembered of movers by a robot that stands at (0, -3), in the open.
+struct Memory {
+  void update(Time now, std::span<const Track> tracks, std::span<const StandingPedestrian> standing = {}) {
+    const Pose2 robot{0.0, -3.0, 0.0};
+    history.update({.now = now,
+                    .map_from_robot = robot,
+                    .tracks = tracks,
+                    .standing = standing,
+                    .still = ground.map(),
+                    .scans = SeenFrom{&scan, robot},
+                    .guide = guide});
+  }
+
+  test::Guided ground;
+  const Guide& guide = ground.towards({0.0, -3.0}, {5.0, 5.0});
+  LaserScan scan = tests::scan_of(
+      {.robot_from_laser = {}, .fov_rad = 2.0 * kPi, .beams = 361, .range_min_m = 0.05, .range_max_m = 25.0}, 20.0F);
+  MoverHistory history;
+};
 
 }  // namespace
 
 TEST_CASE("who walks in the open goes on: after a second most futures are where the velocity leads") {
-  test::Guided g;
-  (void)g.towards({-3.0, -3.0}, {5.0, 5.0});
-  Futures futures;
   const MoverBelief b = walking(1, 0.0F, 1.0F, 0.5F, 0.0F);
-  futures.draw({&b, 1}, {}, {}, g.guide(), 1);
-  const MoverAt& at = futures.at(5, 0);
+  const Drawn drawn({&b, 1});
+  const MoverAt& at = drawn.futures.at(5, 0);
   int near = 0;
   for (int k = 0; k < kFutures; ++k) near += std::hypot(at.x[k] - 0.5F, at.y[k] - 1.0F) < 0.15F ? 1 : 0;
   CHECK(near >= 28);  // of 32: a few stop, at 0.03 a second
@@ -70,39 +89,28 @@ TEST_CASE("who walks in the open goes on: after a second most futures are where 
 }
 
 TEST_CASE("nobody walks through a wall, in any future") {
-  test::Guided g;
-  g.wall({2.0, -4.0}, {2.0, 6.0});
-  (void)g.towards({-3.0, -3.0}, {1.0, 5.0});
-  Futures futures;
   const MoverBelief b = walking(1, 0.0F, 1.0F, 0.8F, 0.0F);
-  futures.draw({&b, 1}, {}, {}, g.guide(), 1);
+  const Drawn drawn({&b, 1}, 1, true);
   for (int step = 0; step < kFutureSteps; ++step) {
-    for (const float x : futures.at(step, 0).x) CHECK(x < 2.0F);
+    for (const float x : drawn.futures.at(step, 0).x) CHECK(x < 2.0F);
   }
 }
 
 TEST_CASE("two who meet turn away from each other: futures are joint") {
-  test::Guided g;
-  (void)g.towards({-3.0, -3.0}, {5.0, 5.0});
-  Futures futures;
   const MoverBelief both[] = {walking(1, 0.0F, 1.0F, 0.5F, 0.0F), walking(2, 3.0F, 1.0F, -0.5F, 0.0F)};
-  futures.draw(both, {}, {}, g.guide(), 1);
-  int apart = 0;
-  for (int k = 0; k < kFutures; ++k) {  // after 3 s both would be at (1.5, 1)
-    const float dx = futures.at(15, 0).x[k] - futures.at(15, 1).x[k];
-    apart += std::hypot(dx, futures.at(15, 0).y[k] - futures.at(15, 1).y[k]) > 0.5F ? 1 : 0;
-  }
+  const Drawn drawn(both);
+  const MoverAt &one = drawn.futures.at(15, 0), &other = drawn.futures.at(15, 1);
+  int apart = 0;  // after 3 s both would be at (1.5, 1)
+  for (int k = 0; k < kFutures; ++k) apart += std::hypot(one.x[k] - other.x[k], one.y[k] - other.y[k]) > 0.5F ? 1 : 0;
   CHECK(apart >= 28);
 }
 
 TEST_CASE("who stands sets out in some futures, somewhere") {
-  test::Guided g;
-  (void)g.towards({-3.0, -3.0}, {5.0, 5.0});
-  Futures futures;
   MoverBelief b = walking(1, 0.0F, 1.0F, 0.0F, 0.0F);
   b.velocity_std = 0.01F;
   b.stood_s = 20.0F;
-  futures.draw({&b, 1}, {}, {}, g.guide(), 1);
+  const Drawn drawn({&b, 1});
+  const Futures& futures = drawn.futures;
   CHECK(futures.at(0, 0).walks == 0U);
   const int late = std::popcount(futures.at(kFutureSteps - 1, 0).walks);
   CHECK(late > 10);  // 1 - e^-1 of 32: 20
@@ -111,60 +119,38 @@ TEST_CASE("who stands sets out in some futures, somewhere") {
 }
 
 TEST_CASE("futures depend on who and when, not on the others' number: the same bits") {
-  test::Guided g;
-  (void)g.towards({-3.0, -3.0}, {5.0, 5.0});
-  Futures one, two;
   const MoverBelief both[] = {walking(1, 0.0F, 1.0F, 0.5F, 0.0F), walking(2, -3.0F, -2.0F, -0.5F, 0.0F)};
-  one.draw({both, 1}, {}, {}, g.guide(), 9);
-  two.draw(both, {}, {}, g.guide(), 9);  // too far off to meet
-  CHECK(std::memcmp(one.at(10, 0).x, two.at(10, 0).x, sizeof one.at(10, 0).x) == 0);
-  two.draw(both, {}, {}, g.guide(), 10);
-  CHECK(std::memcmp(one.at(10, 0).x, two.at(10, 0).x, sizeof one.at(10, 0).x) != 0);
+  const Drawn one({both, 1}, 9), two(both, 9), later(both, 10);  // too far off to meet
+  const auto same = [&one](const Drawn& other) {
+    return std::memcmp(one.futures.at(10, 0).x, other.futures.at(10, 0).x, sizeof(MoverAt::x)) == 0;
+  };
+  CHECK(same(two));
+  CHECK_FALSE(same(later));
 }
 
 TEST_CASE("one scan that drops a walker's velocity to nothing is not believed") {
-  test::Guided g;
-  (void)g.towards({0.0, -3.0}, {5.0, 5.0});
-  MoverHistory memory;
-  const LaserScan scan = open_scan();
+  Memory memory;
   for (int k = 0; k < 12; ++k) {
     const Time now = time_from_seconds(0.1 * k);
     const Track t = track_at(3, {0.05 * k, 2.0}, {k == 11 ? 0.02 : 0.5, 0.0}, now);
-    memory.update({.now = now,
-                   .stamp = now,
-                   .map_from_robot = {0.0, -3.0, 0.0},
-                   .tracks = {&t, 1},
-                   .standing = {},
-                   .still = g.map(),
-                   .scans = SeenFrom{&scan, {0.0, -3.0, 0.0}},
-                   .guide = g.guide()});
+    memory.update(now, {&t, 1});
   }
-  REQUIRE(memory.beliefs().size() == 1);
-  CHECK(memory.beliefs()[0].vx == Approx(0.5F));
-  CHECK(memory.masked().size() == 1);
+  REQUIRE(memory.history.beliefs().size() == 1);
+  CHECK(memory.history.beliefs()[0].vx == Approx(0.5F));
+  CHECK(memory.history.masked().size() == 1);
 }
 
 TEST_CASE("a pedestrian that has stood for more than four seconds stands, known by a track or by two legs alone") {
-  test::Guided g;
-  (void)g.towards({0.0, -3.0}, {5.0, 5.0});
-  const LaserScan scan = open_scan();
   const Time now = time_from_seconds(10.0);
-  const auto standing_after = [&](double stood_s, bool is_track) {
-    MoverHistory memory;
+  const auto standing_after = [now](double stood_s, bool is_track) {
+    Memory memory;
     const Time since = now - duration_from_seconds(stood_s);
     Track track = track_at(3, {1.0, 2.0}, {}, now);
     track.still_since = since, track.is_pedestrian = true;
     const StandingPedestrian legs{{1.0, 2.0}, 0.25, now, since};
-    memory.update({.now = now,
-                   .stamp = now,
-                   .map_from_robot = {0.0, -3.0, 0.0},
-                   .tracks = {&track, is_track ? 1U : 0U},
-                   .standing = {&legs, is_track ? 0U : 1U},
-                   .still = g.map(),
-                   .scans = SeenFrom{&scan, {0.0, -3.0, 0.0}},
-                   .guide = g.guide()});
-    REQUIRE(memory.beliefs().size() == 1);
-    return std::vector<StandingPedestrian>(memory.standing().begin(), memory.standing().end());
+    memory.update(now, {&track, is_track ? 1U : 0U}, {&legs, is_track ? 0U : 1U});
+    REQUIRE(memory.history.beliefs().size() == 1);
+    return std::vector<StandingPedestrian>(memory.history.standing().begin(), memory.history.standing().end());
   };
   for (const bool is_track : {true, false}) {
     CHECK(standing_after(3.5, is_track).empty());
@@ -176,60 +162,36 @@ TEST_CASE("a pedestrian that has stood for more than four seconds stands, known 
 }
 
 TEST_CASE("a walker out of sight lives on, until his places are seen to be empty") {
-  test::Guided g;
-  (void)g.towards({0.0, -3.0}, {5.0, 5.0});
-  MoverHistory memory;
-  LaserScan scan = open_scan();
-  const auto update = [&](double t, std::span<const Track> tracks) {
-    const Time now = time_from_seconds(t);
-    memory.update({.now = now,
-                   .stamp = now,
-                   .map_from_robot = {0.0, -3.0, 0.0},
-                   .tracks = tracks,
-                   .standing = {},
-                   .still = g.map(),
-                   .scans = SeenFrom{&scan, {0.0, -3.0, 0.0}},
-                   .guide = g.guide()});
-  };
-  scan.range_m.fill(1.0F);  // nothing farther off is seen
+  Memory memory;
+  memory.scan.range_m.fill(1.0F);  // nothing farther off is seen
   for (int k = 0; k < 20; ++k) {
     const Track t = track_at(3, {0.05 * k, 2.0}, {0.5, 0.0}, time_from_seconds(0.1 * k));
-    update(0.1 * k, {&t, 1});
+    memory.update(t.stamp, {&t, 1});
   }
-  CHECK(memory.hidden().empty());
-  update(2.0, {});
-  CHECK(memory.hidden().size() == kFutures);
-  update(3.0, {});
-  CHECK(memory.hidden().size() == kFutures);
-  scan.range_m.fill(20.0F);  // now everything is, and nobody is there
-  update(3.1, {});
-  update(3.2, {});
-  CHECK(memory.hidden().empty());
+  CHECK(memory.history.hidden().empty());
+  memory.update(time_from_seconds(2.0), {});
+  CHECK(memory.history.hidden().size() == kFutures);
+  memory.update(time_from_seconds(3.0), {});
+  CHECK(memory.history.hidden().size() == kFutures);
+  memory.scan.range_m.fill(20.0F);  // now everything is, and nobody is there
+  memory.update(time_from_seconds(3.1), {});
+  memory.update(time_from_seconds(3.2), {});
+  CHECK(memory.history.hidden().empty());
 }
 
 namespace {
 
 /// What is remembered after five posts stood there for five seconds, the last of which walks off if it `leaves`.
-MoverHistory among_posts(bool leaves) {
-  test::Guided g;
-  (void)g.towards({0.0, -3.0}, {5.0, 5.0});
-  MoverHistory memory;
-  const LaserScan scan = open_scan();
+TurningModel among_posts(bool leaves) {
+  Memory memory;
   for (int k = 0; k <= 50; ++k) {
     const Time now = time_from_seconds(0.1 * k);
     std::vector<Track> posts;
     for (std::uint32_t id = 1; id <= 5; ++id) posts.push_back(track_at(id, {0.8 * id - 2.0, -1.0}, {}, now));
     if (leaves && k > 20) posts.back() = track_at(5, {2.0, -1.0 + 0.05 * (k - 20)}, {0.0, 0.5}, now);
-    memory.update({.now = now,
-                   .stamp = now,
-                   .map_from_robot = {0.0, -3.0, 0.0},
-                   .tracks = posts,
-                   .standing = {},
-                   .still = g.map(),
-                   .scans = SeenFrom{&scan, {0.0, -3.0, 0.0}},
-                   .guide = g.guide()});
+    memory.update(now, posts);
   }
-  return memory;
+  return memory.history.turning();
 }
 
 }  // namespace
@@ -237,10 +199,9 @@ MoverHistory among_posts(bool leaves) {
 TEST_CASE("what is new and stands walks off as often as those before it did: a fifth at first, worth five of them") {
   const TurningModel at_first;
   CHECK(at_first.walks_off_hz() == Approx(0.05F));  // 1 of 5 in 4 s
-  const auto posts = std::make_unique<MoverHistory>(among_posts(false));
-  CHECK(posts->turning().newcomers == 5.0F);
-  CHECK(posts->turning().walks_off_hz() == Approx(0.025F));  // 1 of 10
-  const auto one_left = std::make_unique<MoverHistory>(among_posts(true));
-  CHECK(one_left->turning().newcomers == 5.0F);
-  CHECK(one_left->turning().walks_off_hz() == Approx(0.05F));  // 2 of 10
+  const TurningModel posts = among_posts(false), one_left = among_posts(true);
+  CHECK(posts.newcomers == 5.0F);
+  CHECK(posts.walks_off_hz() == Approx(0.025F));  // 1 of 10
+  CHECK(one_left.newcomers == 5.0F);
+  CHECK(one_left.walks_off_hz() == Approx(0.05F));  // 2 of 10
 }

@@ -1,4 +1,5 @@
 #pragma once
+#include <memory>
 #include <vector>
 
 #include "planner/cost_to_go/guide_field.h"
@@ -9,6 +10,8 @@ namespace jaywalk::test {
 /// WalledGround that was seen from (-4, -4) to (6, 6), walls drawn on it, and the guide of a P3-DX-like body there.
 class Guided {
  public:
+  explicit Guided(std::shared_ptr<const KeepOutField> keep_out = nullptr) : field_(0.210, 0.3685, 256, keep_out) {}
+
   Guided& wall(Vec2 from, Vec2 to) {
     ground_.wall(from, to);
     return *this;
@@ -34,7 +37,7 @@ class Guided {
 
  private:
   tests::WalledGround ground_;
-  field::TimeToGoField field_{0.210, 0.3685, 256};
+  field::TimeToGoField field_;
   field::TimeToGoField::Memory memory_{256};
   Guide guide_;
 };

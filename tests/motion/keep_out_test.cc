@@ -1,9 +1,8 @@
 #include <memory>
 
-#include "planner/cost_to_go/guide_field.h"
 #include "planner/mapping/known_map.h"
 #include "planner/motion/robot_body.h"
-#include "tests/motion/ground.h"
+#include "tests/motion/guided.h"
 #include "tests/support/catch.h"
 
 using namespace jaywalk;
@@ -14,28 +13,12 @@ MapZone box(Vec2 low, Vec2 high, ZoneKind kind = ZoneKind::kKeepOut, double spee
   return {kind, {low, {high.x, low.y}, high, {low.x, high.y}}, speed_mps};
 }
 
-/// Open ground, and the guide of a P3-DX with a zone on it.
-struct Zoned {
-  explicit Zoned(const MapZone& zone) : field(std::make_shared<const KeepOutField>(std::span(&zone, 1))) {}
+constexpr Vec2 kGoal{4.0, 0.0};
 
-  const Guide& from(Vec2 robot) {
-    const field::Window window{{-118, -118}, 256, 0.1};
-    guide = guides.settle({.window = window,
-                           .still = &ground.map(),
-                           .movers = {},
-                           .robot_in_map = robot,
-                           .goal_in_map = {4.0, 0.0},
-                           .speed_mps = 0.6},
-                          memory);
-    return guide;
-  }
-
-  std::shared_ptr<const KeepOutField> field;
-  tests::WalledGround ground;
-  field::TimeToGoField guides{0.210, 0.3685, 256, field};
-  field::TimeToGoField::Memory memory{256};
-  Guide guide;
-};
+/// Open ground with a zone on it.
+test::Guided zoned(const MapZone& zone) {
+  return test::Guided(std::make_shared<const KeepOutField>(std::span(&zone, 1)));
+}
 
 /// The way from a place to where the guide has no time left, 0.2 m at a time to the nearest in time of 16 directions;
 /// `visit` each place. False when that takes more than `most_m`.
@@ -52,7 +35,7 @@ bool goes(const Guide& guide, Vec2 at, double most_m, const Visit& visit) {
     }
     if (best == at) return false;
     visit(at = best);
-    if (distance(at, {4.0, 0.0}) < 0.3) return true;
+    if (distance(at, kGoal) < 0.3) return true;
   }
   return false;
 }
@@ -73,12 +56,11 @@ TEST_CASE("distances to keep-out zones are to a zone 5 cm wider than drawn, betw
 }
 
 TEST_CASE("the way to the goal leads round a keep-out zone, and what walks may walk through it") {
-  Zoned zoned(box({0.0, -2.0}, {1.0, 2.0}));
-  const Guide& guide = zoned.from({-2.0, 0.0});
+  const MapZone zone = box({0.0, -2.0}, {1.0, 2.0});
+  test::Guided ground = zoned(zone);
+  const Guide& guide = ground.towards({-2.0, 0.0}, kGoal);
   double nearest = 1e9;
-  REQUIRE(goes(guide, {-2.0, 0.0}, 15.0, [&](Vec2 p) {
-    nearest = std::min(nearest, signed_distance(box({0.0, -2.0}, {1.0, 2.0}), p));
-  }));
+  REQUIRE(goes(guide, {-2.0, 0.0}, 15.0, [&](Vec2 p) { nearest = std::min(nearest, signed_distance(zone, p)); }));
   CHECK(nearest > 0.2);  // the body's narrowest half
   CHECK(guide.distance(0.5F, 0.0F) == Guide::kFar_m);
   CHECK(guide.room(0.5F, 0.0F) == Approx(-0.55F).margin(1e-4));
@@ -89,32 +71,25 @@ TEST_CASE("the way to the goal leads round a keep-out zone, and what walks may w
 }
 
 TEST_CASE("a robot in a keep-out zone has a way out of it, from outside none leads in") {
-  Zoned zoned(box({-3.0, -2.0}, {1.0, 2.0}));
-  const Guide& inside = zoned.from({0.0, 0.0});
+  const MapZone zone = box({-3.0, -2.0}, {1.0, 2.0});
+  test::Guided ground = zoned(zone);
+  const Guide& inside = ground.towards({0.0, 0.0}, kGoal);
   bool came_out = false, went_back = false;
   CHECK(goes(inside, {0.0, 0.0}, 8.0, [&](Vec2 p) {
-    const bool out = signed_distance(box({-3.0, -2.0}, {1.0, 2.0}), p) > 0.0;
+    const bool out = signed_distance(zone, p) > 0.0;
     went_back = went_back || (came_out && !out);
     came_out = came_out || out;
   }));
   CHECK(came_out);
   CHECK_FALSE(went_back);
-  const Guide& outside = zoned.from({2.0, 0.0});
+  const Guide& outside = ground.towards({2.0, 0.0}, kGoal);
   CHECK(outside.time_to_go(0.0F, 0.0F) == Guide::kNoWay_s);
 }
 
 TEST_CASE("a guide whose zones are far away has the bytes of one without") {
-  Zoned zoned(box({60.0, 60.0}, {61.0, 61.0}));
-  const Guide& with = zoned.from({-2.0, 0.0});
-  field::TimeToGoField plain(0.210, 0.3685, 256);
-  field::TimeToGoField::Memory memory(256);
-  const Guide without = plain.settle({.window = {{-118, -118}, 256, 0.1},
-                                      .still = &zoned.ground.map(),
-                                      .movers = {},
-                                      .robot_in_map = {-2.0, 0.0},
-                                      .goal_in_map = {4.0, 0.0},
-                                      .speed_mps = 0.6},
-                                     memory);
+  test::Guided ground = zoned(box({60.0, 60.0}, {61.0, 61.0})), plain;
+  const Guide& with = ground.towards({-2.0, 0.0}, kGoal);
+  const Guide& without = plain.towards({-2.0, 0.0}, kGoal);
   for (float x = -3.5F; x < 5.5F; x += 0.25F) {
     CHECK(with.time_to_go(x, 1.0F) == without.time_to_go(x, 1.0F));
     CHECK(with.room(x, 1.0F) == without.room(x, 1.0F));

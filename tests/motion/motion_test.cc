@@ -5,7 +5,6 @@
 
 #include "apps/rivals/baseline.h"
 #include "planner/paper/paper.h"
-#include "tests/motion/ground.h"
 #include "tests/motion/guided.h"
 #include "tests/motion/moment.h"
 #include "tests/support/catch.h"
@@ -28,8 +27,7 @@ Time rests_on(Motion& motion, const tests::Moment& moment) {
 }  // namespace
 
 TEST_CASE("commands at constant speed rest on the path, and on nothing when a plan has none") {
-  const tests::WalledGround ground;
-  tests::Moment moment(ground.map());
+  tests::Moment moment;
   moment.go_to({4.0, 0.0});
   const auto on_path = paper::make_motion(setup_of(true));
   moment.plan.status = PlanStatus::kOk;
@@ -39,8 +37,7 @@ TEST_CASE("commands at constant speed rest on the path, and on nothing when a pl
 }
 
 TEST_CASE("roll-outs rest on the older of the scan decided on and the plan, by a stick on the scan alone") {
-  const tests::WalledGround ground;
-  tests::Moment moment(ground.map());
+  tests::Moment moment;
   moment.go_to({4.0, 0.0});
   moment.plan.status = PlanStatus::kOk;
   const auto motion = make_motion(setup_of(false, StickUse::kShared));
@@ -59,8 +56,7 @@ TEST_CASE("roll-outs rest on the older of the scan decided on and the plan, by a
 
 TEST_CASE(
     "roll-outs ask for plans rarely and past pedestrians, a path's follower with each scan and with them marked") {
-  const tests::WalledGround ground;
-  tests::Moment moment(ground.map());
+  tests::Moment moment;
   Track walker;
   walker.id = 1;
   walker.position_in_map = {1.0, 0.0};
@@ -101,10 +97,9 @@ TEST_CASE("the time from poses is asked for where corners may swing into somethi
 }
 
 TEST_CASE("at its goal a robot turns to the heading wanted there, whatever brought it, at constant speed it cannot") {
-  const tests::WalledGround ground;
   for (const auto& [make, constant] :
        {std::pair<MakeMotion, bool>{make_motion, false}, {make_motion, true}, {paper::make_motion, true}}) {
-    tests::Moment moment(ground.map());
+    tests::Moment moment;
     moment.go_to({});
     moment.input.goal_heading_rad = 1.0;
     const auto motion = make(setup_of(constant));

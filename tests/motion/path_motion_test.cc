@@ -1,5 +1,4 @@
 #include "planner/paper/paper.h"
-#include "tests/motion/ground.h"
 #include "tests/motion/moment.h"
 #include "tests/support/catch.h"
 
@@ -15,15 +14,14 @@ Path line(Vec2 from, Vec2 to) {
 
 /// Twist after so many ticks along a path from standstill, the robot held where it is.
 Twist2 settled(const Path& path, bool has_goal = true) {
-  const tests::WalledGround ground;
-  tests::Moment moment(ground.map());
+  tests::Moment moment;
   moment.plan.path = path;
   if (has_goal) moment.go_to({5.0, 0.0});
   RobotModel model = p3dx();
   model.limits.max_speed_mps = 0.6, model.limits.max_turn_radps = 1.5;
-  paper::PathMotion motion({.model = model, .constant_speed = true});
+  const auto motion = paper::make_motion({.model = model, .constant_speed = true});
   for (int k = 0; k < 200; ++k) {
-    moment.drive(motion, 0.02);
+    moment.drive(*motion, 0.02);
     moment.pose = {};
   }
   return moment.driven;
@@ -46,13 +44,13 @@ TEST_CASE("at constant speed it never stops, not even to turn round, at a path's
   CHECK(settled(Path{}, false).v_mps == 0.0);
 }
 
-TEST_CASE("of a path's points the nearest is told, of two as near the first") {
+TEST_CASE("looking ahead begins at the nearest of a path's points, of two as near at the first") {
   const Path path = line({0, 0}, {5, 0});  // 0.1 m apart
-  CHECK(paper::nearest_point(path, {2.04, 0.7}) == 20);
-  CHECK(paper::nearest_point(path, {9.0, 0.0}) == 50);
+  CHECK(paper::look_ahead(path, {2.04, 0.7}, 0.0) == path[20]);
+  CHECK(paper::look_ahead(path, {9.0, 0.0}, 0.0) == path[50]);
   Path two;
   REQUIRE((two.push_back({0.0, 1.0}) && two.push_back({0.0, -1.0})));
-  CHECK(paper::nearest_point(two, {0.0, 0.0}) == 0);
+  CHECK(paper::look_ahead(two, {0.0, 0.0}, 0.0) == two[0]);
 }
 
 TEST_CASE("looking ahead 0.5 m from beside the middle of a line finds the point 0.5 m on") {

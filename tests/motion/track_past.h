@@ -10,25 +10,20 @@ class TrackPast {
  public:
   /// A well seen disc of 0.27 m radius.
   [[nodiscard]] Track of(Vec2 position, Vec2 velocity, Time now) {
-    return of({.id = 1,
-               .stamp = now,
-               .position_in_map = position,
-               .velocity_in_map = velocity,
-               .covariance = {1e-4, 1e-5, 1e-3},
-               .radius_m = 0.27,
-               .moving = norm(velocity) > 0.1,
-               .hits = 20,
-               .last_seen = now});
-  }
-  [[nodiscard]] Track of(Track track) {
-    is_pedestrian_ = is_pedestrian_ || track.moving;
-    if (since_ == kNever || distance(at_, track.position_in_map) > kStandsWithinM) {
-      at_ = track.position_in_map;
-      since_ = track.stamp;
-    }
-    track.is_pedestrian = is_pedestrian_;
-    track.still_since = since_;
-    return track;
+    const bool moving = norm(velocity) > 0.1;
+    is_pedestrian_ = is_pedestrian_ || moving;
+    if (since_ == kNever || distance(at_, position) > kStandsWithinM) at_ = position, since_ = now;
+    return {.id = 1,
+            .stamp = now,
+            .position_in_map = position,
+            .velocity_in_map = velocity,
+            .covariance = {1e-4, 1e-5, 1e-3},
+            .radius_m = 0.27,
+            .moving = moving,
+            .is_pedestrian = is_pedestrian_,
+            .still_since = since_,
+            .hits = 20,
+            .last_seen = now};
   }
 
  private:

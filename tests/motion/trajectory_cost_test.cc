@@ -1,11 +1,10 @@
-#include "planner/motion/trajectory_cost.h"
-
 #include <algorithm>
 #include <cmath>
 #include <memory>
 
 #include "hal/types/robot_model.h"
 #include "planner/motion/proposals.h"
+#include "planner/motion/situation.h"
 #include "tests/motion/guided.h"
 #include "tests/support/catch.h"
 
@@ -32,30 +31,45 @@ RobotBody body_of(float full_speed) {
   return body;
 }
 
-/// What a robot at (0, 0) in the open, its goal 4 m ahead, would pay for one command held all the time.
+/// A P3-DX at (0, 0), its goal straight ahead, open ground and the futures of some movers.
+struct Scene {
+  explicit Scene(float goal_m = 4.0F, std::span<const MoverBelief> movers = {}, const NearReturns& near = kNothing)
+      : goal{goal_m, 0.0F}, returns(near) {
+    settle();
+    if (!movers.empty()) futures->draw(movers, {}, {}, guide, 1);
+  }
+  void settle() { (void)ground.towards({0.0, 0.0}, {double{goal.x}, 0.0}); }
+  [[nodiscard]] Cost cost_of(const Trajectory& trajectory, RobotState* driven = nullptr) const {
+    return trajectory_cost(situation, trajectory, 1e9F, driven);
+  }
+  [[nodiscard]] Cost cost_of(const Command& held, RobotState* driven = nullptr) const {
+    Trajectory trajectory;
+    trajectory.commands.fill(held);
+    return cost_of(trajectory, driven);
+  }
+
+  Place goal;
+  const NearReturns& returns;
+  test::Guided ground;
+  const Guide& guide = ground.guide();
+  RobotBody body = body_of(0.6F);
+  std::unique_ptr<Futures> futures = std::make_unique<Futures>();
+  Situation situation{body, guide, *futures, returns, {}, goal, 0.0F, {}, 0.24F};
+};
+
+/// What a robot in the open, its goal 4 m ahead, would pay for one command held all the time.
 Cost cost_of(const Command& command, float stood_s, float turned = 0.0F, bool walled_in = false,
              float full_speed = 0.6F, bool alone = false, float wound_rad = 0.0F) {
-  test::Guided ground;
-  if (walled_in)
-    ground.wall({2.0, -4.0}, {2.0, 6.0})
-        .wall({-2.0, -4.0}, {-2.0, 6.0})
-        .wall({-2.0, -3.0}, {2.0, -3.0})
-        .wall({-2.0, 3.0}, {2.0, 3.0});
-  const Guide& guide = ground.towards({0.0, 0.0}, {4.0, 0.0});
-  const RobotBody body = body_of(full_speed);
-  const auto nobody = std::make_unique<Futures>();
-  Trajectory held;
-  held.commands.fill(command);
-  return trajectory_cost({body,
-                          guide,
-                          *nobody,
-                          kNothing,
-                          RobotState{},
-                          {4.0F, 0.0F},
-                          turned,
-                          {stood_s, guide.time_to_go(0.0F, 0.0F), alone, wound_rad},
-                          0.24F},
-                         held, 1e9F);
+  Scene scene;
+  if (walled_in) {
+    scene.ground.wall({2.0, -4.0}, {2.0, 6.0}).wall({-2.0, -4.0}, {-2.0, 6.0});
+    scene.ground.wall({-2.0, -3.0}, {2.0, -3.0}).wall({-2.0, 3.0}, {2.0, 3.0});
+    scene.settle();
+  }
+  scene.body = body_of(full_speed);
+  scene.situation.turned = turned;
+  scene.situation.stall = {stood_s, scene.guide.time_to_go(0.0F, 0.0F), alone, wound_rad};
+  return scene.cost_of(command);
 }
 
 }  // namespace
@@ -88,10 +102,13 @@ TEST_CASE("where no way is known it may stand for ever") {
   CHECK(cost_of({}, 60.0F, 0.0F, true).total() == at_once);
 }
 
-TEST_CASE("turning to the other side than before has its price, once") {
-  const float left_again = cost_of({0.3F, 0.5F}, 0.0F, 1.0F).total();
-  CHECK(cost_of({0.3F, 0.5F}, 0.0F, -1.0F).total() == Approx(left_again + 1.5F).margin(0.01));
-  CHECK(cost_of({0.3F, 0.5F}, 0.0F, 0.0F).total() == Approx(left_again).margin(0.01));
+TEST_CASE("turning to the other side than before costs once, at three times the speed a third as much time") {
+  const auto cost = [](float turned, float full_speed) {
+    return cost_of({0.3F, 0.5F}, 0.0F, turned, false, full_speed).total();
+  };
+  CHECK(cost(-1.0F, 0.6F) == Approx(cost(1.0F, 0.6F) + 1.5F).margin(0.01));
+  CHECK(cost(0.0F, 0.6F) == Approx(cost(1.0F, 0.6F)).margin(0.01));
+  CHECK(cost(-1.0F, 1.8F) == Approx(cost(1.0F, 1.8F) + 0.5F).margin(0.01));
 }
 
 TEST_CASE("having turned by more than half a circle without getting on, it is cheaper to turn back than right round") {
@@ -104,38 +121,23 @@ TEST_CASE("having turned by more than half a circle without getting on, it is ch
   CHECK(cost_wound(5.0F, 0.0F) == Approx(cost_wound(0.0F, 0.0F) + 6.0F * (5.0F - 3.14159F)).margin(0.01));
 }
 
-TEST_CASE("a reversal is worth so much way: at three times the speed a third of the time") {
-  const float same_side = cost_of({0.3F, 0.5F}, 0.0F, 1.0F, false, 1.8F).total();
-  CHECK(cost_of({0.3F, 0.5F}, 0.0F, -1.0F, false, 1.8F).total() == Approx(same_side + 0.5F).margin(0.01));
-}
-
 TEST_CASE("a trajectory is given up only where its whole cost is above the bound: what its end takes back counts") {
-  test::Guided ground;
-  const Guide& guide = ground.towards({0.0, 0.0}, {1.6, 0.0});
-  const RobotBody body = body_of(0.6F);
-  const auto nobody = std::make_unique<Futures>();
-  const Situation arrives{body, guide, *nobody, kNothing, RobotState{}, {1.6F, 0.0F}, 0.0F, {}, 0.24F};
+  const Scene scene(1.6F);
   Trajectory ahead;
   ahead.commands.fill({0.6F, 0.0F});
-  const float whole = trajectory_cost(arrives, ahead, 1e9F).total();
+  const float whole = scene.cost_of(ahead).total();
   REQUIRE(whole < 4.0F);  // it arrives
-  CHECK(trajectory_cost(arrives, ahead, whole + 0.01F).total() == whole);
-  CHECK(trajectory_cost(arrives, ahead, whole - 0.01F).total() > whole - 0.01F);
+  CHECK(trajectory_cost(scene.situation, ahead, whole + 0.01F).total() == whole);
+  CHECK(trajectory_cost(scene.situation, ahead, whole - 0.01F).total() > whole - 0.01F);
 }
 
 TEST_CASE("where nothing looks behind, it backs at its speed only as far as it has driven forward") {
-  test::Guided ground;
-  const RobotBody body = body_of(0.6F);
-  const auto nobody = std::make_unique<Futures>();
-  const Guide& guide = ground.towards({0.0, 0.0}, {4.0, 0.0});
-  const auto backed = [&](KnownBehind known) {
-    const RobotState start{.v = -0.3F};
-    Situation s{body, guide, *nobody, kNothing, start, {4.0F, 0.0F}, 0.0F, {}, 0.24F};
-    s.known_behind = known;
-    Trajectory backs;
-    backs.commands.fill({-0.3F, 0.0F});
+  Scene scene;
+  scene.situation.start.v = -0.3F;
+  const auto backed = [&scene](KnownBehind known) {
+    scene.situation.known_behind = known;
     std::array<RobotState, kSteps> driven{};
-    CHECK(trajectory_cost(s, backs, 1e9F, driven.data()).total() < 1e9F);
+    CHECK(scene.cost_of(Command{-0.3F, 0.0F}, driven.data()).total() < 1e9F);
     return driven;
   };
   CHECK(backed(KnownBehind(false)).back().x == Approx(-1.8F).margin(0.05));
@@ -147,36 +149,25 @@ TEST_CASE("where nothing looks behind, it backs at its speed only as far as it h
 }
 
 TEST_CASE("with a heading wanted at the goal, to set out later costs, though it turns after the trajectory's end") {
-  test::Guided ground;
-  const Guide& guide = ground.towards({0.0, 0.0}, {2.7, 0.0});
-  const RobotBody body = body_of(0.6F);
-  const auto nobody = std::make_unique<Futures>();
-  Situation turns{body, guide, *nobody, kNothing, RobotState{}, {2.7F, 0.0F}, 0.0F, {}, 0.24F};
-  turns.goal_heading = -1.9F;
-  turns.wants_heading = true;
+  Scene scene(2.7F);
+  scene.situation.goal_heading = -1.9F;
+  scene.situation.wants_heading = true;
   const auto cost_after = [&](int steps) {
     Trajectory ahead;
     std::fill(ahead.commands.begin() + steps, ahead.commands.end(), Command{0.6F, 0.0F});
     const int there = std::min(45 + steps, kSteps);  // within 0.24 m of it
     std::fill(ahead.commands.begin() + there, ahead.commands.end(), Command{0.0F, -0.6F});
-    return trajectory_cost(turns, ahead, 1e9F).time;
+    return scene.cost_of(ahead).time;
   };
   CHECK(cost_after(10) > cost_after(0) + 0.7F);
   CHECK(cost_after(30) > cost_after(0) + 2.0F);
 }
 
 TEST_CASE("who has stood for long is a surface as wide as a person, though the map holds nothing of him") {
-  test::Guided ground;
-  const Guide& guide = ground.towards({0.0, 0.0}, {4.0, 0.0});
-  const RobotBody body = body_of(0.6F);
-  Trajectory held;
-  held.commands.fill({0.3F, 0.0F});
-  const auto cost_beside = [&](float left_m, float stood_s) {
+  const auto cost_beside = [](float left_m, float stood_s) {
     MoverBelief him{.id = 1, .x = 1.0F, .y = left_m, .radius_m = 0.25F, .usual_mps = 0.6F};
     him.is_pedestrian = true, him.stood_s = stood_s;
-    const auto futures = std::make_unique<Futures>();
-    futures->draw({&him, 1}, {}, {}, guide, 1);
-    return trajectory_cost({body, guide, *futures, kNothing, RobotState{}, {4.0F, 0.0F}, 0.0F, {}, 0.24F}, held, 1e9F);
+    return Scene(4.0F, {&him, 1}).cost_of(Command{0.3F, 0.0F});
   };
   const float side = static_cast<float>(p3dx().footprint.half_width_m) + 0.25F;
   CHECK(cost_beside(side + 0.15F, 10.0F).touch > 400.0F);  // no nearer than kFromStanding_m
@@ -187,9 +178,6 @@ TEST_CASE("who has stood for long is a surface as wide as a person, though the m
 
 TEST_CASE(
     "the supervisor's braking is foreseen: slowly past a place 6 cm beside the way, whatever the map holds of it") {
-  test::Guided ground;
-  const Guide& guide = ground.wall({-1.0, 0.4}, {0.5, 0.4}).towards({0.0, 0.0}, {5.6, 0.0});
-  const RobotBody body = body_of(0.6F);
   LaserScan scan;
   scan.beam_count = 3;
   scan.first_angle_rad = 0.5F, scan.angle_step_rad = 0.1F;
@@ -198,17 +186,17 @@ TEST_CASE(
   scan.range_m[1] = std::sqrt(ahead * ahead + left * left);
   scan.first_angle_rad = std::atan2(left, ahead) - scan.angle_step_rad;
   NearReturns returns;
-  returns.update(SeenFrom{&scan, {}}, {}, body, {}, {});
-  const auto nobody = std::make_unique<Futures>();
+  returns.update(SeenFrom{&scan, {}}, {}, body_of(0.6F), {}, {});
   struct Passed {
     float braked_s, least_mps;
   };
-  const auto pass_at = [&](float speed, const NearReturns& seen) {
-    Trajectory held;
-    held.commands.fill({speed, 0.0F});
+  const auto pass_at = [](float speed, const NearReturns& seen) {
+    Scene scene(5.6F, {}, seen);
+    scene.ground.wall({-1.0, 0.4}, {0.5, 0.4});
+    scene.settle();
+    scene.situation.start.v = speed;
     RobotState driven[kSteps];
-    const Situation s{body, guide, *nobody, seen, {.v = speed}, {5.6F, 0.0F}, 0.0F, {}, 0.24F};
-    const float braked_s = trajectory_cost(s, held, 1e9F, driven).stop_zone;
+    const float braked_s = scene.cost_of(Command{speed, 0.0F}, driven).stop_zone;
     return Passed{braked_s, std::ranges::min_element(driven, {}, [](const RobotState& r) { return r.v; })->v};
   };
   const float permitted = StopZoneRules<float>::permitted_rim(0.06F);
@@ -222,18 +210,12 @@ TEST_CASE(
 }
 
 TEST_CASE("beside who stands the way costs, and not the time: waiting there gains nothing") {
-  test::Guided ground;
-  const Guide& guide = ground.towards({0.0, 0.0}, {4.0, 0.0});
-  const RobotBody body = body_of(0.6F);
-  const auto nearness_at = [&](float speed, float walks_mps) {
+  const auto nearness_at = [](float speed, float walks_mps) {
     MoverBelief beside{.id = 1, .x = 0.3F, .y = 0.8F, .vx = walks_mps, .radius_m = 0.25F, .usual_mps = 0.4F};
     beside.is_pedestrian = true, beside.stood_s = walks_mps > 0.0F ? 0.0F : 1000.0F;
-    const auto futures = std::make_unique<Futures>();
-    futures->draw({&beside, 1}, {}, {}, guide, 1);
-    Trajectory held;
-    held.commands.fill({speed, 0.0F});
-    return trajectory_cost({body, guide, *futures, kNothing, {.v = speed}, {4.0F, 0.0F}, 0.0F, {}, 0.24F}, held, 1e9F)
-        .nearness;
+    Scene scene(4.0F, {&beside, 1});
+    scene.situation.start.v = speed;
+    return scene.cost_of(Command{speed, 0.0F}).nearness;
   };
   CHECK(nearness_at(0.0F, 0.0F) < 0.02F);
   CHECK(nearness_at(0.1F, 0.0F) > 0.1F);
@@ -241,46 +223,30 @@ TEST_CASE("beside who stands the way costs, and not the time: waiting there gain
 }
 
 TEST_CASE("in a walker's way already, to drive into the walker costs more than to stand") {
-  test::Guided ground;
-  const Guide& guide = ground.towards({0.0, 0.0}, {4.0, 0.0});
-  const RobotBody body = body_of(0.6F);
   const MoverBelief comes{.id = 1, .x = 1.0F, .vx = -0.4F, .radius_m = 0.25F, .usual_mps = 0.4F, .is_pedestrian = true};
-  const auto futures = std::make_unique<Futures>();
-  futures->draw({&comes, 1}, {}, {}, guide, 1);
-  const auto conflict_at = [&](float speed) {
-    Trajectory held;
-    held.commands.fill({speed, 0.0F});
-    return trajectory_cost({body, guide, *futures, kNothing, RobotState{}, {4.0F, 0.0F}, 0.0F, {}, 0.24F}, held, 1e9F)
-        .conflict;
-  };
-  CHECK(conflict_at(0.3F) > conflict_at(0.0F) + 50.0F);
+  const Scene scene(4.0F, {&comes, 1});
+  CHECK(scene.cost_of(Command{0.3F, 0.0F}).conflict > scene.cost_of(Command{}).conflict + 50.0F);
 }
 
 namespace {
 
-/// A P3-DX at 0.6 m/s, its goal ahead, and somebody who comes towards it at 1.2 m/s from so far ahead.
-struct Oncoming {
-  explicit Oncoming(float from_m) {
-    const MoverBelief comes{
-        .id = 1, .x = from_m, .vx = -1.2F, .radius_m = 0.25F, .usual_mps = 1.2F, .is_pedestrian = true};
-    futures->draw({&comes, 1}, {}, {}, guide, 1);
+MoverBelief coming(float from_m) {
+  return {.id = 1, .x = from_m, .vx = -1.2F, .radius_m = 0.25F, .usual_mps = 1.2F, .is_pedestrian = true};
+}
+
+/// A robot at 0.6 m/s, and a pedestrian that comes towards it at 1.2 m/s from so far ahead.
+struct Oncoming : Scene {
+  explicit Oncoming(float from_m) : Scene(5.6F, std::array{coming(from_m)}) {
+    body = robot_body(p3dx().footprint, p3dx().limits, p3dx().laser, 1.0);
+    situation.start.v = 0.6F;
   }
-  [[nodiscard]] Cost cost_of(const Trajectory& trajectory, std::array<RobotState, kSteps>& driven) const {
-    return trajectory_cost(situation, trajectory, 1e9F, driven.data());
-  }
+  using Scene::cost_of;
   [[nodiscard]] Cost cost_of(float until_v_mps, int after, bool brakes) const {
     Trajectory trajectory;
     trajectory.commands.fill({until_v_mps, 0.0F});
     std::fill(trajectory.commands.begin() + after, trajectory.commands.end(), Command{0.0F, 0.0F, brakes});
-    std::array<RobotState, kSteps> driven{};
-    return cost_of(trajectory, driven);
+    return cost_of(trajectory);
   }
-
-  test::Guided ground;
-  const Guide& guide = ground.towards({0.0, 0.0}, {5.6, 0.0});
-  RobotBody body = robot_body(p3dx().footprint, p3dx().limits, p3dx().laser, 1.0);
-  std::unique_ptr<Futures> futures = std::make_unique<Futures>();
-  Situation situation{body, guide, *futures, kNothing, {.v = 0.6F}, {5.6F, 0.0F}, 0.0F, {}, 0.24F};
 };
 
 }  // namespace
@@ -324,7 +290,7 @@ TEST_CASE("where every trajectory touches somebody, the one that is at rest soon
   Trajectory trial;
   for (int n = 0; n < proposals.count(); ++n) {
     proposals.make(n, trial);
-    const Cost cost = near.cost_of(trial, driven);
+    const Cost cost = near.cost_of(trial, driven.data());
     CHECK_FALSE(cost.is_safe());
     if (cost.is_better_than(best)) best = cost, best_driven = driven;
   }

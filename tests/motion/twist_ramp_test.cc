@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "tests/support/catch.h"
 
@@ -69,4 +70,24 @@ TEST_CASE("turning speeds up by the turn acceleration alone: 3 rad/s2 in 20 ms i
   CHECK(ramp.toward({0.0, 1.0}, 0.02).w_radps == Approx(0.06));
   ramp.follow({0.0, 0.0});
   CHECK(ramp.toward({0.0, -1.0}, 0.02).w_radps == Approx(-0.06));
+}
+
+TEST_CASE("wheels turn as the twist has it, beyond the motors slower on the same curve, by no number not at all") {
+  // Wheels of radius 0.1 m, 0.4 m apart, at most 10 rad/s: 1 m/s of rim.
+  const DiffDrive drive({.wheel_radius_m = 0.1, .track_width_m = 0.4, .max_wheel_speed_radps = 10.0});
+  struct Row {
+    const char* name;
+    Twist2 twist;
+    double left_radps, right_radps;
+  };
+  const Row rows[] = {{"0.5 m/s straight on is 5 rad/s on a 10 cm wheel", {0.5, 0.0}, 5.0, 5.0},
+                      {"1 rad/s over 0.2 m is 0.2 m/s of rim each way", {0.0, 1.0}, -2.0, 2.0},
+                      {"rims of 0.5 and 1.5 m/s: 5 and 15 rad/s, times 10/15", {1.0, 2.5}, 10.0 / 3.0, 10.0},
+                      {"no number", {std::numeric_limits<double>::quiet_NaN(), 0.0}, 0.0, 0.0}};
+  for (const Row& row : rows) {
+    CAPTURE(row.name);
+    const WheelCommand command = drive.wheel_speeds(row.twist, kNever);
+    CHECK(command.left_radps == Approx(row.left_radps));
+    CHECK(command.right_radps == Approx(row.right_radps));
+  }
 }

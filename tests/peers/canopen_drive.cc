@@ -17,12 +17,12 @@ using namespace jaywalk;
 /// A bus on which the rest of the world is a pipe.
 class PipeBus final : public CanBus {
  public:
-  [[nodiscard]] SendResult send(const CanFrame& frame) noexcept override {
+  [[nodiscard]] bool send(const CanFrame& frame) noexcept override {
     std::printf("%03X ", static_cast<unsigned>(frame.id));
     for (std::uint8_t k = 0; k < frame.size; ++k) std::printf("%02X", static_cast<unsigned>(frame.bytes[k]));
     std::printf("\n");
     std::fflush(stdout);
-    return SendResult::kQueued;
+    return true;
   }
   [[nodiscard]] bool receive(ReceivedFrame& received) noexcept override {
     const std::size_t end = came_in_.find('\n');

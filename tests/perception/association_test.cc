@@ -1,6 +1,7 @@
 #include <memory>
 
 #include "planner/tracking/target.h"
+#include "tests/perception/cut_scan.h"
 #include "tests/perception/room.h"
 #include "tests/support/catch.h"
 
@@ -11,17 +12,9 @@ namespace {
 
 /// What is seen from the origin of a room whose ground was free.
 std::unique_ptr<Detections> clusters_of(const Room& room) {
-  const LaserScan scan = scan_of(room, {}, 1);
-  const auto points = std::make_unique<ScanPoints>();
-  ScanProjection().project(scan, {}, {}, *points);
-  const auto in_map = std::make_unique<PointsInMap>();
-  in_map->ground.fill(Ground::kFree);
-  for (std::size_t k = 0; k < points->size(); ++k) in_map->position[k] = (*points)[k].in_robot;
-  const auto segments = std::make_unique<Segments>();
-  cut_at_jumps(*points, sweep_of(scan), *segments);
-  auto detections = std::make_unique<Detections>();
-  find_detections(*points, *in_map, *segments, sweep_of(scan), {}, *detections);
-  return detections;
+  const auto cut = std::make_unique<CutScan>(scan_of(room, {}, 1));
+  cut->find();
+  return std::make_unique<Detections>(cut->detections);
 }
 
 /// What is seen of a disc of 0.4 m about (4, 0), from the origin, behind a wall 2 m off that ends at `edge_y`.
@@ -78,7 +71,7 @@ TEST_CASE("a detection between one who is surely near and one who may be anywher
 }
 
 TEST_CASE("two legs have their middle between them and of one alone it is deeper and less sure") {
-  const auto both = clusters_of({.walls = {}, .discs = {{{4.0, 0.15}, 0.06}, {{4.0, -0.15}, 0.06}}});
+  const auto both = clusters_of({.discs = {{{4.0, 0.15}, 0.06}, {{4.0, -0.15}, 0.06}}});
   REQUIRE(both->size() == 2);
   Observation seen;
   REQUIRE(observe_new(*both, 0, 1, seen));
@@ -86,13 +79,13 @@ TEST_CASE("two legs have their middle between them and of one alone it is deeper
   CHECK((*both)[1].track_id == 1);
   const double sure_m = seen.std_m;
 
-  const auto one = clusters_of({.walls = {}, .discs = {{{4.0, 0.0}, 0.06}}});
+  const auto one = clusters_of({.discs = {{{4.0, 0.0}, 0.06}}});
   REQUIRE(one->size() == 1);
   REQUIRE(observe_new(*one, 0, 1, seen));
   CHECK(distance(seen.position_in_map, {4.08, 0.0}) < 0.02);  // the other one stands behind it
   CHECK(seen.std_m > 2.0 * sure_m);
 
-  const auto merged = clusters_of({.walls = {}, .discs = {{{4.0, 0.07}, 0.06}, {{4.0, -0.07}, 0.06}}});
+  const auto merged = clusters_of({.discs = {{{4.0, 0.07}, 0.06}, {{4.0, -0.07}, 0.06}}});
   REQUIRE(merged->size() == 1);  // 2 cm between them
   REQUIRE(observe_new(*merged, 0, 1, seen));
   CHECK(distance(seen.position_in_map, {4.0, 0.0}) < 0.1);
@@ -107,7 +100,7 @@ TEST_CASE("who was seen on two legs is no arc when one hides the other or both a
     for (Detection& c : *detections) c.track_id = 7;
     CHECK(observe(target.estimate.track, target.appearance, *detections, seen));
   };
-  const Room side_by_side{.walls = {}, .discs = {{{4.0, 0.1}, 0.08}, {{4.0, -0.1}, 0.08}}};
+  const Room side_by_side{.discs = {{{4.0, 0.1}, 0.08}, {{4.0, -0.1}, 0.08}}};
   see(side_by_side);
   CHECK(seen.arc_m > 0.15);  // it might as well be a body
   const double arc_m = seen.arc_m;
@@ -128,9 +121,9 @@ TEST_CASE("who was seen on two legs is no arc when one hides the other or both a
 }
 
 TEST_CASE("two points are a leg where legs have no more, and a new target only with another one") {
-  CHECK(clusters_of({.walls = {}, .discs = {{{2.0, 0.0}, 0.009}}})->empty());  // at 2 m a leg has nine
+  CHECK(clusters_of({.discs = {{{2.0, 0.0}, 0.009}}})->empty());  // at 2 m a leg has nine
 
-  const auto one = clusters_of({.walls = {}, .discs = {{{9.0, 0.026}, 0.06}}});
+  const auto one = clusters_of({.discs = {{{9.0, 0.026}, 0.06}}});
   REQUIRE(one->size() == 1);
   REQUIRE((*one)[0].sparse);
   Observation seen;
@@ -140,14 +133,77 @@ TEST_CASE("two points are a leg where legs have no more, and a new target only w
   (*one)[0].track_id = 7;
   CHECK(observe(known.estimate.track, known.appearance, *one, seen));
 
-  const auto two = clusters_of({.walls = {}, .discs = {{{9.0, 0.13}, 0.06}, {{9.0, -0.13}, 0.06}}});
+  const auto two = clusters_of({.discs = {{{9.0, 0.13}, 0.06}, {{9.0, -0.13}, 0.06}}});
   REQUIRE(two->size() == 2);
   CHECK(observe_new(*two, 0, 1, seen));
   CHECK((*two)[1].track_id == 1);
 
-  const auto beside =
-      clusters_of({.walls = {}, .discs = {{{9.0, 0.13}, 0.06}, {{9.0, -0.13}, 0.06}, {{5.0, 0.155}, 0.06}}});
+  const auto beside = clusters_of({.discs = {{{9.0, 0.13}, 0.06}, {{9.0, -0.13}, 0.06}, {{5.0, 0.155}, 0.06}}});
   REQUIRE(beside->size() == 2);  // the post and the leg beside which nothing stands
   CHECK((*beside)[0].sparse);
   CHECK_FALSE((*beside)[1].sparse);
+}
+
+namespace {
+
+/// Targets 0.27 m in radius that were seen three times, each where a disc of the scan is; and the scan cut at jumps.
+struct SideBySide : CutScan {
+  explicit SideBySide(const std::vector<Vec2>& places) : CutScan(scan_of(discs_at(places), {}, 1)) {}
+  static Room discs_at(const std::vector<Vec2>& places) {
+    Room room;
+    for (const Vec2 place : places) room.discs.push_back({place, 0.27});
+    return room;
+  }
+  void know(Vec2 place, bool moving = true) {
+    Target target = born_at(place, 0.01, 0.27, time_from_seconds(0.0), static_cast<std::uint32_t>(targets.size() + 1));
+    target.estimate.track.hits = 3;
+    target.estimate.track.moving = moving;
+    target.appearance.arc_m = 0.27;
+    REQUIRE(targets.push_back(target));
+  }
+  /// The width of segment `k`, m.
+  [[nodiscard]] double width_m(std::size_t k) const {
+    return distance(in_map.position[segments[k].first], in_map.position[segments[k].last]);
+  }
+
+  Targets targets;
+};
+
+}  // namespace
+
+TEST_CASE("three known targets a hand apart are three segments and unknown ones stay one") {
+  const std::vector<Vec2> places{{3.0, -0.57}, {3.0, 0.0}, {3.0, 0.57}};  // 3 cm between them
+  const auto seen = std::make_unique<SideBySide>(places);
+  REQUIRE(seen->segments.size() == 1);
+  split_detections(seen->targets, seen->in_map, seen->segments);
+  CHECK(seen->segments.size() == 1);
+
+  for (const Vec2 place : places) seen->know(place);
+  split_detections(seen->targets, seen->in_map, seen->segments);
+  REQUIRE(seen->segments.size() == 3);
+  for (std::size_t k = 0; k < 3; ++k) CHECK(seen->width_m(k) == Approx(0.53).margin(0.04));  // 0.54 less a beam
+  CHECK(seen->segments[0].first == 0);
+  CHECK(seen->segments[1].first == seen->segments[0].last + 1);  // no point is lost
+  CHECK(seen->segments[2].first == seen->segments[1].last + 1);
+  CHECK(seen->segments[2].last + 1 == seen->points.size());
+}
+
+TEST_CASE("one target is not cut in two for another that is expected half in it") {
+  const auto seen = std::make_unique<SideBySide>(std::vector<Vec2>{{3.0, 0.0}});
+  seen->know({3.0, -0.2});  // they begin and end it, but 0.54 m is less than three quarters of 1.08 m
+  seen->know({3.0, 0.2});
+  split_detections(seen->targets, seen->in_map, seen->segments);
+  CHECK(seen->segments.size() == 1);
+}
+
+TEST_CASE("two of whom one moves are cut and two that stand are not") {
+  const std::vector<Vec2> places{{3.0, -0.285}, {3.0, 0.285}};
+  for (const bool moves : {false, true}) {
+    const auto seen = std::make_unique<SideBySide>(places);
+    seen->know(places[0], moves);
+    seen->know(places[1], false);
+    REQUIRE(seen->segments.size() == 1);
+    split_detections(seen->targets, seen->in_map, seen->segments);
+    CHECK(seen->segments.size() == (moves ? 2 : 1));
+  }
 }

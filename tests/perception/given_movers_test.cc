@@ -1,7 +1,6 @@
 #include <limits>
 
-#include "planner/tracking/tracker.h"
-#include "tests/perception/room.h"
+#include "tests/perception/watch.h"
 #include "tests/support/catch.h"
 
 using namespace jaywalk;
@@ -82,11 +81,7 @@ TEST_CASE("beams that end on a given mover stay out of the map and make no track
     tracker.update(scan_of(room, {}, k), {});
   }
   CHECK(tracker.tracks().size() == 1);
-  int marked = 0;
-  for (int j = -20; j < 20; ++j) {
-    for (int i = 15; i < 25; ++i) marked += tracker.still().occupied({i, j}) ? 1 : 0;
-  }
-  CHECK(marked == 0);
+  CHECK(occupied_cells(tracker.still(), {15, -20}, {25, 20}) == 0);
   CHECK(tracker.still().occupied(tracker.still().cell_at({5.99, 1.0})));
 }
 

@@ -13,23 +13,13 @@ constexpr Pose2 kAhead{}, kBack{0.0, 0.0, kPi};  // three quarters of a turn are
 bool remembers(const Watch& watch, Vec2 place) {
   const EvidenceMap& still = watch.tracker.still();
   const CellIndex middle = still.cell_at(place);
-  bool some = false;
-  for (std::int32_t j = -4; j <= 4; ++j) {
-    for (std::int32_t i = -4; i <= 4; ++i) some = some || still.occupied({middle.i + i, middle.j + j});
-  }
-  return some;
+  return occupied_cells(still, {middle.i - 4, middle.j - 4}, {middle.i + 5, middle.j + 5}) > 0;
 }
 
 /// Looks at the room for a second ahead, then for two the other way.
 void look_and_turn(Watch& watch, const Room& room) {
   for (int k = 0; k < 15; ++k) watch.see(room, kAhead);
   for (int k = 0; k < 30; ++k) watch.see(room, kBack);
-}
-
-Room with_wall(Vec2 from, Vec2 to) {
-  Room room = rectangle(12.0, 10.0);
-  room.walls.push_back({from, to});
-  return room;
 }
 
 }  // namespace
@@ -48,7 +38,7 @@ TEST_CASE("what stands alone out of sight is forgotten, what is in view and wall
 TEST_CASE("what is wider than bodies are, or stands at a wall, is not forgotten") {
   const auto [from, to] = GENERATE(table<Vec2, Vec2>({{{3.0, -0.9}, {3.0, 0.9}}, {{5.0, 0.5}, {6.0, 0.5}}}));
   Watch watch;
-  look_and_turn(watch, with_wall(from, to));
+  look_and_turn(watch, with({}, {{from, to}}));
   const Vec2 middle = (from + to) * 0.5;
   REQUIRE(remembers(watch, middle));
   watch.tracker.forget_unseen();
@@ -57,7 +47,7 @@ TEST_CASE("what is wider than bodies are, or stands at a wall, is not forgotten"
 
 TEST_CASE("a thing of which a part is in view stays whole") {
   Watch watch;
-  const Room room = with_wall({-1.5, 2.4}, {-1.5, 3.4});  // across the edge of what is looked at ahead
+  const Room room = with({}, {{{-1.5, 2.4}, {-1.5, 3.4}}});  // across the edge of what is looked at ahead
   for (int k = 0; k < 15; ++k) watch.see(room, kBack);
   for (int k = 0; k < 15; ++k) watch.see(room, kAhead);
   const bool both = remembers(watch, {-1.5, 2.4}) && remembers(watch, {-1.5, 3.4});

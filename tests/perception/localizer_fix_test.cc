@@ -1,6 +1,7 @@
 // Fixes from outside, as the localizer takes them.
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "planner/localization/localizer.h"
 #include "tests/support/catch.h"
@@ -11,66 +12,65 @@ namespace {
 
 constexpr DriveModel kDrive{.wheel_radius_m = 0.1, .track_width_m = 0.33, .max_wheel_speed_radps = 14.0};
 
+/// A localizer without scans at the origin, its wheels, and a fix of the same time.
+struct Fixed {
+  Fixed() {
+    fix.stamp = wheels.stamp;
+    fix.has_pose = true;
+  }
+  const PoseEstimate& update(const OutsideFix& by) { return localizer.update(wheels, {}, by, still, {}); }
+
+  Localizer localizer{{.map_from_robot_at_start = {}, .drive = kDrive, .robot_from_laser = {}, .match_scans = false}};
+  const EvidenceMap still{64, 0.1, {}};
+  WheelState wheels{.stamp = time_from_seconds(0.0), .sequence = 1};
+  OutsideFix fix;
+};
+
 }  // namespace
 
 TEST_CASE("an outside fix is blended by variance") {
-  Localizer localizer({.map_from_robot_at_start = {}, .drive = kDrive, .robot_from_laser = {}, .match_scans = false});
-  const EvidenceMap still(64, 0.1, {});
-  const LaserScan none;
-  WheelState wheels{.stamp = time_from_seconds(0.0), .sequence = 1};
-  const double std_before = localizer.update(wheels, none, {}, still, {}).position_std_m;  // 0.005
-  OutsideFix fix;
-  fix.stamp = time_from_seconds(0.0);
+  Fixed robot;
+  const double std_before = robot.update({}).position_std_m;  // 0.005
+  OutsideFix& fix = robot.fix;
   fix.sequence = 1;
-  fix.has_pose = true;
   fix.map_from_robot = {0.01, -0.02, 0.0};
   fix.position_std_m = 2.0 * std_before;  // a quarter of the weight: a fifth of the way
   fix.heading_std_rad = 1.0;
-  const PoseEstimate& blended = localizer.update(wheels, none, fix, still, {});
+  const PoseEstimate& blended = robot.update(fix);
   CHECK(blended.map_from_robot.x == Approx(0.002));
   CHECK(blended.map_from_robot.y == Approx(-0.004));
   CHECK(blended.position_std_m == Approx(std_before * std::sqrt(0.8)));
 }
 
 TEST_CASE("a fix is taken once, and one that is no number or of another time not at all") {
-  Localizer localizer({.map_from_robot_at_start = {}, .drive = kDrive, .robot_from_laser = {}, .match_scans = false});
-  const EvidenceMap still(64, 0.1, {});
-  const LaserScan none;
-  OutsideFix fix;
-  fix.stamp = time_from_seconds(0.0);
+  Fixed robot;
+  const WheelState driven = std::exchange(robot.wheels, {});
+  OutsideFix& fix = robot.fix;
   fix.sequence = 1;
-  fix.has_pose = true;
   fix.map_from_robot = {0.01, 0.0, 0.0};
   fix.position_std_m = 0.005;
-  const double once = localizer.update({}, none, fix, still, {}).map_from_robot.x;
+  const double once = robot.update(fix).map_from_robot.x;
   CHECK(once > 0.0);
-  CHECK(localizer.update({}, none, fix, still, {}).map_from_robot.x == once);
+  CHECK(robot.update(fix).map_from_robot.x == once);
+  robot.wheels = driven;
+  (void)robot.update(fix);
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  OutsideFix bad = fix;
+  OutsideFix bad = fix, doubtful = fix, turned = fix, old = fix, early = fix;
   bad.map_from_robot.x = nan;
-  OutsideFix doubtful = fix;
   doubtful.position_std_m = nan;
-  OutsideFix turned = fix;
   turned.heading_std_rad = -1.0;
-  OutsideFix old = fix, early = fix;
   old.stamp = time_from_seconds(-5.0), early.stamp = time_from_seconds(5.0);
-  WheelState wheels{.stamp = time_from_seconds(0.0), .sequence = 1};
-  (void)localizer.update(wheels, none, fix, still, {});
-  for (const OutsideFix& useless : {bad, doubtful, turned, old, early}) {
-    OutsideFix next = useless;
-    next.sequence = ++fix.sequence;
-    CHECK(localizer.update(wheels, none, next, still, {}).map_from_robot.x == once);
+  for (OutsideFix useless : {bad, doubtful, turned, old, early}) {
+    useless.sequence = ++fix.sequence;
+    CHECK(robot.update(useless).map_from_robot.x == once);
   }
 }
 
 TEST_CASE("one fix that is far off is a mistake, three that agree as the robot drives on are where it is") {
-  Localizer localizer({.map_from_robot_at_start = {}, .drive = kDrive, .robot_from_laser = {}, .match_scans = false});
-  const EvidenceMap still(64, 0.1, {});
-  const LaserScan none;
-  WheelState wheels{.stamp = time_from_seconds(0.0), .sequence = 1};
-  (void)localizer.update(wheels, none, {}, still, {});
-  OutsideFix fix;
-  fix.has_pose = true;
+  Fixed robot;
+  (void)robot.update({});
+  OutsideFix& fix = robot.fix;
+  WheelState& wheels = robot.wheels;
   fix.position_std_m = fix.heading_std_rad = 0.05;
   const auto fixed = [&](double x, double y) -> const PoseEstimate& {  // 0.2 s and 0.1 m on
     wheels.stamp += std::chrono::milliseconds(200);
@@ -78,7 +78,7 @@ TEST_CASE("one fix that is far off is a mistake, three that agree as the robot d
     wheels.left_rad += 0.1 / kDrive.wheel_radius_m, wheels.right_rad += 0.1 / kDrive.wheel_radius_m;
     fix.stamp = wheels.stamp;
     fix.map_from_robot = {x, y, 0.0};
-    return localizer.update(wheels, none, fix, still, {});
+    return robot.update(fix);
   };
   CHECK(fixed(9.0, 9.0).map_from_robot.x == Approx(0.1));  // each says another place
   CHECK(fixed(3.0, -2.0).map_from_robot.x == Approx(0.2));
@@ -91,20 +91,15 @@ TEST_CASE("one fix that is far off is a mistake, three that agree as the robot d
 }
 
 TEST_CASE("of a robot that was carried fixes near where it believed to be tell the pose, whatever it was sure of") {
-  Localizer localizer({.map_from_robot_at_start = {}, .drive = kDrive, .robot_from_laser = {}, .match_scans = false});
-  const EvidenceMap still(64, 0.1, {});
-  const LaserScan none;
-  WheelState wheels{.stamp = time_from_seconds(0.0), .sequence = 1};
-  (void)localizer.update(wheels, none, {}, still, {});
-  localizer.carried();
-  OutsideFix fix;
-  fix.stamp = wheels.stamp;
-  fix.has_pose = true;
+  Fixed robot;
+  (void)robot.update({});
+  robot.localizer.carried();
+  OutsideFix& fix = robot.fix;
   fix.map_from_robot = {0.0, 0.0, 0.2};  // two standard deviations
   fix.position_std_m = fix.heading_std_rad = 0.1;
   PoseEstimate last;
   for (fix.sequence = 1; fix.sequence <= 3; ++fix.sequence) {
-    last = localizer.update(wheels, none, fix, still, {});
+    last = robot.update(fix);
     CHECK(last.doubtful == (fix.sequence < 3));
   }
   CHECK(last.map_from_robot.heading == Approx(0.2));

@@ -25,45 +25,81 @@ struct Judge {
   LineOfSight sight{scan, {}, {}, {}};
 };
 
-/// As seen when it went aside to (3, 0.21): its right and its left side lie behind and ahead on its way.
-void show_sides(Target& target) {
-  target.appearance.outline_in_map.clear();
-  for (int k = 0; k < 5; ++k) (void)target.appearance.outline_in_map.push_back({3.0, 0.11 + 0.05 * k});
+using Sample = PositionHistory::Sample;
+
+/// A walker as wide as people.
+Target body(Vec2 from, Vec2 to, double free_share) {
+  Target target = walker(from, to);
+  target.appearance.arc_m = 0.25;
+  target.onset.free_share = free_share;
+  return target;
 }
+
+/// Five points of its outline.
+void show(Target& target, Vec2 middle, Vec2 step) {
+  target.appearance.outline_in_map.clear();
+  for (int k = -2; k <= 2; ++k) (void)target.appearance.outline_in_map.push_back(middle + step * k);
+}
+
+/// As seen when it went aside to (3, 0.21): its right and its left side lie behind and ahead on its way.
+void show_sides(Target& target) { show(target, {3.0, 0.21}, {0.0, 0.05}); }
+
+/// Its places, in its history alone, 0.1 s apart.
+template <class SampleAt>
+void place(Target& target, int first, int last, const SampleAt& sample_at) {
+  target.onset.positions.clear();
+  for (int k = first; k <= last; ++k) target.onset.positions.add(time_from_seconds(0.1 * k), sample_at(k));
+}
+
+/// It goes to the left, says its filter.
+void go_left(Target& target, double mps) {
+  target.estimate.track.velocity_in_map = {0.0, mps};
+  target.estimate.track.covariance = {.pp = 1e-4, .pv = 0.0, .vv = 0.01};
+  target.estimate.filter = ImmFilter(target.estimate.track);
+}
+
+/// The first hides (3, 0) from the laser; the second stands where a body is that went from there to (3, 0.2).
+const Wall kHides{{2.0, 0.08}, {2.0, -1.0}}, kStood{{3.0, 0.05}, {3.0, 0.4}};
 
 bool sees_it_start(const Target& target, const Room& room) { return Judge(room)(target) != MotionOnset::kNone; }
 
 }  // namespace
 
-TEST_CASE("who walked a metre and is seen to have left has set out") {
-  Room room = rectangle(12.0, 10.0);
-  room.discs = {{{3.0, 0.5}, 0.1}};
-  CHECK(sees_it_start(walker({3.0, -0.5}, {3.0, 0.5}), room));
+TEST_CASE("who walked a metre and left has set out: not in one hop, nor where beams still end, nor if he stands") {
+  const Room left = with({{{3.0, 0.5}, 0.1}});
+  const Target walked = walker({3.0, -0.5}, {3.0, 0.5});
+  CHECK(sees_it_start(walked, left));
+  CHECK_FALSE(sees_it_start(walked, with({{{3.0, 0.5}, 0.1}, {{3.0, -0.5}, 0.1}})));
+  Target hopped = walked;
+  place(hopped, 0, 9, [](int k) { return Sample{{3.0, k < 5 ? -0.5 : 0.5}}; });
+  CHECK_FALSE(sees_it_start(hopped, left));
+  Target stands = walked;
+  Track still = walked.estimate.track;
+  still.covariance = {.pp = 1e-4, .pv = 0.0, .vv = 1e-4};
+  stands.estimate.filter = ImmFilter(still);
+  for (int k = 0; k < 20; ++k) {
+    stands.estimate.filter.predict(still, 0.1);
+    stands.estimate.filter.correct(still, {3.0, 0.5}, 0.02);
+  }
+  CHECK_FALSE(sees_it_start(stands, left));
 }
 
 TEST_CASE("a target that both sides of went along has set out for certain, and one that grew has not") {
   // 0.2 m in a second, as straight as can be.
-  Target target = walker({3.0, 0.0}, {3.0, 0.2});
-  target.appearance.arc_m = 0.25;
-  const Judge judged(rectangle(12.0, 10.0));
+  Target target = body({3.0, 0.0}, {3.0, 0.2}, 1.0);
+  const Judge judged(with({}));
   CHECK(judged(target) == MotionOnset::kCertain);
-  target.onset.positions.clear();
-  for (int k = 1; k <= 10; ++k)  // its middle goes 0.2 m while one side stays where it is
-    target.onset.positions.add(time_from_seconds(0.1 * k),
-                               {.where_in_map = {3.0, 0.02 * k}, .width_m = 0.2 + 0.04 * k, .whole = true});
+  place(target, 1, 10, [](int k) {  // its middle goes 0.2 m while one side stays where it is
+    return Sample{.where_in_map = {3.0, 0.02 * k}, .width_m = 0.2 + 0.04 * k, .whole = true};
+  });
   CHECK(judged(target) == MotionOnset::kNone);
 }
 
 TEST_CASE("what was seen whole at less than four places may have come into view on one side") {
-  Target target = walker({3.0, 0.0}, {3.0, 0.3});
-  target.appearance.arc_m = 0.25;
-  target.onset.free_share = 0.0;
-  const Judge judged(rectangle(12.0, 10.0));
+  Target target = body({3.0, 0.0}, {3.0, 0.3}, 0.0);
+  const Judge judged(with({}));
   const auto whole_for = [&](int places) {
-    target.onset.positions.clear();
-    for (int k = 1; k <= 10; ++k)
-      target.onset.positions.add(time_from_seconds(0.1 * k),
-                                 {.where_in_map = {3.0, 0.03 * k}, .whole = k > 10 - places});
+    place(target, 1, 10, [&](int k) { return Sample{.where_in_map = {3.0, 0.03 * k}, .whole = k > 10 - places}; });
     return judged(target);
   };
   CHECK(whole_for(4) == MotionOnset::kCertain);
@@ -73,80 +109,56 @@ TEST_CASE("what was seen whole at less than four places may have come into view 
 TEST_CASE("what stands where something stood a moment ago has not set out, however it seems to go") {
   // 0.2 m in a second to the left, from a place that a wall hides. A heap of posts that shows another side does as
   // much.
-  Room room = rectangle(12.0, 10.0);
-  room.walls.push_back({{2.0, 0.08}, {2.0, -1.0}});
-  Target target = walker({3.0, 0.0}, {3.0, 0.2});
-  target.onset.free_share = 0.0;
-  target.appearance.arc_m = 0.25;
+  const Room room = with({}, {kHides});
+  Target target = body({3.0, 0.0}, {3.0, 0.2}, 0.0);
   show_sides(target);
-  Room stood = room;
-  stood.walls.push_back({{3.0, 0.05}, {3.0, 0.4}});
   CHECK(Judge(room)(target) == MotionOnset::kCertain);
-  CHECK(Judge(room, stood)(target) == MotionOnset::kNone);
+  CHECK(Judge(room, with({}, {kHides, kStood}))(target) == MotionOnset::kNone);
   CHECK(Judge(room, room)(target) == MotionOnset::kCertain);
-  Room hidden = room;
-  hidden.walls.push_back({{1.0, -1.0}, {1.0, 1.0}});  // that scan tells nothing of it
+  const Room hidden = with({}, {kHides, {{1.0, -1.0}, {1.0, 1.0}}});  // that scan tells nothing of it
   CHECK(Judge(room, hidden)(target) == MotionOnset::kCertain);
 }
 
 TEST_CASE("who leaves a place where beams then find nothing has set out") {
-  Room open;
-  open.discs = {{{3.0, 0.2}, 0.1}};
-  Target target = walker({3.0, 0.0}, {3.0, 0.2});
-  target.onset.free_share = 0.0;
-  target.appearance.arc_m = 0.25;
+  Target target = body({3.0, 0.0}, {3.0, 0.2}, 0.0);
   show_sides(target);
-  CHECK(Judge(open)(target) == MotionOnset::kCertain);
+  CHECK(Judge({.discs = {{{3.0, 0.2}, 0.1}}})(target) == MotionOnset::kCertain);
 }
 
 TEST_CASE("beams that end on a target do not say that it still stands where it set out from") {
   // Half a metre wide and 8 m off, it goes 0.15 m away and as far to the left. Its right side was at (8, -0.25), 0.21 m
   // from where it is now: more than 0.20 m, within which anything there is the same. But the beams to that place, three
   // to either side of -1.8 degrees, reach to -0.8, and its right side is at -0.7 degrees and 0.15 m farther off.
-  Target target = walker({8.0, 0.0}, {8.15, 0.15});
-  target.appearance.arc_m = 0.25;
+  Target target = body({8.0, 0.0}, {8.15, 0.15}, 1.0);
   for (std::size_t k = 0; k < 5; ++k) {
     target.onset.anchor_outline[k] = {8.0, -0.25 + 0.125 * static_cast<double>(k)};
     target.appearance.outline_in_map[k] = target.onset.anchor_outline[k] + Vec2{0.15, 0.15};
   }
-  Room room = rectangle(24.0, 10.0);
-  room.walls.push_back({{8.15, -0.1}, {8.15, 0.4}});
-  const Judge judged(room);
+  const Judge judged(rectangle(24.0, 10.0, {}, {{{8.15, -0.1}, {8.15, 0.4}}}));
   CHECK(judged(target) == MotionOnset::kNone);
   target.appearance.beams = {403, 413};  // beam 405 is straight ahead: -0.67 to 2.67 degrees
   CHECK(judged(target) == MotionOnset::kCertain);
 }
 
 TEST_CASE("a target that came to free space is known by a shorter walk than one on unknown ground") {
-  const Judge judged(rectangle(12.0, 10.0));
-  Target target = walker({3.0, 0.0}, {3.0, 0.09});  // shorter than 0.10 m
-  target.appearance.arc_m = 0.25;
-  target.estimate.track.velocity_in_map = {0.0, 0.3};
-  target.estimate.track.covariance = {.pp = 1e-4, .pv = 0.0, .vv = 0.01};
-  target.estimate.filter = ImmFilter(target.estimate.track);
+  const Judge judged(with({}));
+  Target target = body({3.0, 0.0}, {3.0, 0.09}, 1.0);  // shorter than 0.10 m
+  go_left(target, 0.3);
   CHECK(judged(target) == MotionOnset::kCertain);
   target.onset.free_share = 0.0;
   CHECK(judged(target) == MotionOnset::kNone);
 }
 
 TEST_CASE("who stood has set out by his newest places alone") {
-  const Judge judged(rectangle(12.0, 10.0));
-  Target target = walker({3.0, 0.0}, {3.0, 0.16});  // on ground of which nothing is known
-  target.appearance.arc_m = 0.25;
-  target.onset.free_share = 0.0;
-  target.appearance.noise = 2.0;  // no filter foretold the first step
-  target.estimate.track.velocity_in_map = {0.0, 0.4};
-  target.estimate.track.covariance = {.pp = 1e-4, .pv = 0.0, .vv = 0.01};
-  target.estimate.filter = ImmFilter(target.estimate.track);
+  const Judge judged(with({}));
+  Target target = body({3.0, 0.0}, {3.0, 0.16}, 0.0);  // on ground of which nothing is known
+  target.appearance.noise = 2.0;                       // no filter foretold the first step
+  go_left(target, 0.4);
   const auto stands_then_walks = [&](double grows_m) {
-    target.onset.positions.clear();
-    for (int k = 0; k < 20; ++k) {  // 4 cm a scan from the seventeenth on, of which every second scan sees a beam more
-      const double steps = std::max(0, k - 15);
-      target.onset.positions.add(time_from_seconds(0.1 * k), {.where_in_map = {3.0, 0.04 * steps},
-                                                              .width_m = 0.5 + 0.06 * (k % 2) + grows_m * steps,
-                                                              .spacing_m = 0.06,
-                                                              .whole = true});
-    }
+    place(target, 0, 19, [&](int k) {  // 4 cm a scan from the seventeenth on; every second scan sees a beam more
+      const double steps = std::max(0, k - 15), width_m = 0.5 + 0.06 * (k % 2) + grows_m * steps;
+      return Sample{.where_in_map = {3.0, 0.04 * steps}, .width_m = width_m, .spacing_m = 0.06, .whole = true};
+    });
     return judged(target);
   };
   CHECK(stands_then_walks(0.0) == MotionOnset::kCertain);
@@ -163,9 +175,7 @@ TEST_CASE("who stood has set out by his newest places alone") {
   target.appearance.whole = false;
   CHECK(stands_then_walks(0.0) == MotionOnset::kNone);
   target.appearance.whole = true;
-  target.onset.positions.clear();
-  for (int k = 0; k < 6; ++k)  // he never stood
-    target.onset.positions.add(time_from_seconds(0.1 * k), {.where_in_map = {3.0, 0.032 * k}, .whole = true});
+  place(target, 0, 5, [](int k) { return Sample{.where_in_map = {3.0, 0.032 * k}, .whole = true}; });  // never stood
   CHECK(judged(target) == MotionOnset::kLikely);
   target.appearance.noise = 1.0;  // the filter foretold it
   CHECK(judged(target) == MotionOnset::kCertain);
@@ -174,93 +184,50 @@ TEST_CASE("who stood has set out by his newest places alone") {
 }
 
 TEST_CASE("who stood and was taken for a wall has set out where he left his place and came where nothing stood") {
-  Room room = rectangle(12.0, 10.0);
-  Target target = walker({3.0, 0.0}, {3.0, 0.2});
-  target.appearance.arc_m = 0.25;
-  target.onset.free_share = 0.0;
+  Target target = body({3.0, 0.0}, {3.0, 0.2}, 0.0);
   target.appearance.on_wall = true;
   show_sides(target);
-  target.onset.positions.clear();
-  for (int k = 0; k < 20; ++k)
-    target.onset.positions.add(time_from_seconds(0.1 * k),
-                               {.where_in_map = {3.0, 0.04 * std::max(0, k - 14)}, .whole = true});
-  CHECK(Judge(room)(target) == MotionOnset::kCertain);  // beams pass over where he stood
-  room.walls.push_back({{2.0, 0.08}, {2.0, -1.0}});
+  place(target, 0, 19, [](int k) { return Sample{.where_in_map = {3.0, 0.04 * std::max(0, k - 14)}, .whole = true}; });
+  CHECK(Judge(with({}))(target) == MotionOnset::kCertain);  // beams pass over where he stood
+  const Room room = with({}, {kHides});
   CHECK(Judge(room, room)(target) == MotionOnset::kCertain);
-  Room stood = room;
-  stood.walls.push_back({{3.0, 0.05}, {3.0, 0.4}});
-  CHECK(Judge(room, stood)(target) == MotionOnset::kNone);
+  CHECK(Judge(room, with({}, {kHides, kStood}))(target) == MotionOnset::kNone);
 }
 
-TEST_CASE("who most likely stands has not set out") {
-  Room room = rectangle(12.0, 10.0);
-  room.discs = {{{3.0, 0.5}, 0.1}};
-  Target target = walker({3.0, -0.5}, {3.0, 0.5});
-  Track still = target.estimate.track;
-  still.covariance = {.pp = 1e-4, .pv = 0.0, .vv = 1e-4};
-  target.estimate.filter = ImmFilter(still);
-  for (int k = 0; k < 20; ++k) {
-    target.estimate.filter.predict(still, 0.1);
-    target.estimate.filter.correct(still, {3.0, 0.5}, 0.02);
-  }
-  CHECK_FALSE(sees_it_start(target, room));
-}
-
-TEST_CASE("whose place still returns beams has not set out") {
-  Room room = rectangle(12.0, 10.0);
-  room.discs = {{{3.0, 0.5}, 0.1}, {{3.0, -0.5}, 0.1}};
-  CHECK_FALSE(sees_it_start(walker({3.0, -0.5}, {3.0, 0.5}), room));
-}
-
-TEST_CASE("who came the whole way in one hop has not set out") {
-  Room room = rectangle(12.0, 10.0);
-  room.discs = {{{3.0, 0.5}, 0.1}};
-  Target target = walker({3.0, -0.5}, {3.0, 0.5});
-  target.onset.positions.clear();
-  for (int k = 0; k < 10; ++k) target.onset.positions.add(time_from_seconds(0.1 * k), {{3.0, k < 5 ? -0.5 : 0.5}});
-  CHECK_FALSE(sees_it_start(target, room));
+/// Comes from (3.6, 0) to (3, 0), and to and fro aside of that.
+void sway(Target& target, double aside_m, double grows_m) {
+  place(target, 0, 10, [&](int k) {
+    const double y = k % 2 == 0 ? aside_m : -aside_m;
+    return Sample{.where_in_map = {3.6 - 0.06 * k, y}, .width_m = grows_m * k, .whole = true};
+  });
 }
 
 TEST_CASE("who sways has set out where beams passed a moment ago and not where none tells") {
   // Coming towards the laser hides the place behind: 0.6 m in a second, as one leg or the other is seen.
-  Room room = rectangle(12.0, 10.0);
-  room.discs = {{{3.0, 0.0}, 0.1}};
+  const Room room = with({{{3.0, 0.0}, 0.1}});
   Target target = walker({3.6, 0.0}, {3.0, 0.0});
-  const auto sways_by = [&](double aside_m, double grows_m) {
-    target.onset.positions.clear();
-    for (int k = 0; k <= 10; ++k)
-      target.onset.positions.add(
-          time_from_seconds(0.1 * k),
-          {.where_in_map = {3.6 - 0.06 * k, k % 2 == 0 ? aside_m : -aside_m}, .width_m = grows_m * k, .whole = true});
-  };
-  const Judge was_free(room, rectangle(12.0, 10.0)), untold(room);
-  sways_by(0.14, 0.0);
+  const Judge was_free(room, with({})), untold(room);
+  sway(target, 0.14, 0.0);
   CHECK(was_free(target) == MotionOnset::kLikely);
   CHECK(untold(target) == MotionOnset::kNone);
   target.appearance.noise = 3.0;  // a heap that changes its shape
   CHECK(was_free(target) == MotionOnset::kNone);
   target.appearance.noise = 1.0;
-  sways_by(0.14, 0.04);  // 0.4 m wider at the end
+  sway(target, 0.14, 0.04);  // 0.4 m wider at the end
   CHECK(was_free(target) == MotionOnset::kNone);
-  sways_by(0.14, 0.0);
+  sway(target, 0.14, 0.0);
   target.onset.free_share = 0.0;  // the map does not agree
   CHECK(was_free(target) == MotionOnset::kNone);
-  sways_by(0.09, 0.0);
+  sway(target, 0.09, 0.0);
   CHECK(was_free(target) == MotionOnset::kLikely);
 }
 
 TEST_CASE("what went less than half its own width has not set out by swaying") {
-  Room room = rectangle(12.0, 10.0);
-  room.discs = {{{3.0, 0.0}, 0.1}};
   Target target = walker({3.6, 0.0}, {3.0, 0.0});
-  target.onset.positions.clear();
-  for (int k = 0; k <= 10; ++k)
-    target.onset.positions.add(time_from_seconds(0.1 * k),
-                               {{3.6 - 0.06 * k, k % 2 == 0 ? 0.09 : -0.09}, 0.0, 0.0, true});
-  const Judge was_free(room, rectangle(12.0, 10.0));
+  sway(target, 0.09, 0.0);
+  const Judge was_free(with({{{3.0, 0.0}, 0.1}}), with({}));
   const auto as_wide_as = [&](double width_m) {
-    target.appearance.outline_in_map.clear();
-    for (int k = -2; k <= 2; ++k) (void)target.appearance.outline_in_map.push_back({3.0, 0.25 * k * width_m});
+    show(target, {3.0, 0.0}, {0.0, 0.25 * width_m});
     return was_free(target);
   };
   CHECK(as_wide_as(1.0) == MotionOnset::kLikely);
@@ -269,14 +236,10 @@ TEST_CASE("what went less than half its own width has not set out by swaying") {
 
 TEST_CASE("a piece of wall that slides along itself has not set out, and one broadside on has") {
   // 0.4 m wide pieces; the place that each came from is out of sight behind a post.
-  Room room = rectangle(24.0, 10.0);
-  room.discs = {{{2.0, 0.0}, 0.3}};
+  const Room room = rectangle(24.0, 10.0, {{{2.0, 0.0}, 0.3}});
   Target slides = walker({4.0, 0.0}, {6.0, 0.0}), strides = slides;
-  slides.appearance.outline_in_map.clear(), strides.appearance.outline_in_map.clear();
-  for (int k = 0; k < 5; ++k) {
-    (void)slides.appearance.outline_in_map.push_back({5.8 + 0.1 * k, 0.0});
-    (void)strides.appearance.outline_in_map.push_back({6.0, -0.2 + 0.1 * k});
-  }
+  show(slides, {6.0, 0.0}, {0.1, 0.0});
+  show(strides, {6.0, 0.0}, {0.0, 0.1});
   CHECK_FALSE(sees_it_start(slides, room));
   CHECK(sees_it_start(strides, room));
 }
@@ -287,7 +250,6 @@ TEST_CASE("a piece at a slant that slides along itself has not set out though be
   Target piece = walker({4.0, -0.6}, {4.6, 0.0});
   piece.appearance.whole = false;
   piece.onset.free_share = 0.0;
-  piece.appearance.outline_in_map.clear();
-  for (int k = -2; k <= 2; ++k) (void)piece.appearance.outline_in_map.push_back({4.6 + 0.07 * k, 0.07 * k});
-  CHECK_FALSE(sees_it_start(piece, rectangle(12.0, 10.0)));
+  show(piece, {4.6, 0.0}, {0.07, 0.07});
+  CHECK_FALSE(sees_it_start(piece, with({})));
 }

@@ -116,8 +116,7 @@ struct Hall {
     for (int k = 0; k < 30; ++k) see({});
   }
   void see(std::vector<Disc> discs) {
-    Room room = rectangle(12.0, 10.0);
-    room.walls.push_back({{1.5, 0.0}, {1.5, 1.5}});
+    Room room = with({}, {{{1.5, 0.0}, {1.5, 1.5}}});
     room.discs = std::move(discs);
     const LaserScan seen = scan_of(room, {}, ++scan, 0.01);
     const AllocationGuard guard;

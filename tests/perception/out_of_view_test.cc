@@ -10,18 +10,14 @@ using namespace jaywalk::test;
 
 TEST_CASE("walls that come into view behind a corner do not move") {
   Watch watch;
-  Room room = rectangle(12.0, 10.0);
-  room.walls.push_back({{1.0, -5.0}, {1.0, 0.5}});
-  room.discs = {{{3.0, -2.0}, 0.3}, {{4.0, -1.0}, 0.15}, {{2.0, -0.5}, 0.1}};
+  const Room room = with({{{3.0, -2.0}, 0.3}, {{4.0, -1.0}, 0.15}, {{2.0, -0.5}, 0.1}}, {{{1.0, -5.0}, {1.0, 0.5}}});
   for (int k = 0; k < 150; ++k) watch.see(room, {-3.0 + 0.03 * k, 1.5, 0.0});  // 0.45 m/s past the corner
   CHECK(watch.most_moving == 0);
 }
 
 /// A disc 0.4 m in radius behind the end of a wall, seen past it.
 void see_behind_a_wall(Watch& watch, double disc_y) {
-  Room room = with({{{3.0, disc_y}, 0.4}});
-  room.walls.push_back({{1.5, -5.0}, {1.5, -0.2}});
-  watch.see(room, {-3.0, 0.5, 0.0});
+  watch.see(with({{{3.0, disc_y}, 0.4}}, {{{1.5, -5.0}, {1.5, -0.2}}}), {-3.0, 0.5, 0.0});
 }
 
 TEST_CASE("a wide one who comes out from behind a wall is known within 0.6 s and does not hop once seen whole") {
@@ -43,25 +39,18 @@ TEST_CASE("a wide one who comes out from behind a wall is known within 0.6 s and
 TEST_CASE("a wide thing that comes into view behind a wall as the robot drives does not move") {
   Watch watch;
   const double radius_m = GENERATE(0.4, 0.5, 0.75);
-  Room room = with({{{3.5, -0.2 - radius_m}, radius_m}});
-  room.walls.push_back({{1.5, -5.0}, {1.5, -0.2}});
+  const Room room = with({{{3.5, -0.2 - radius_m}, radius_m}}, {{{1.5, -5.0}, {1.5, -0.2}}});
   for (int k = 0; k < 110; ++k) watch.see(room, {0.0, -1.5 + 0.04 * k, 0.0});  // 0.6 m/s across the wall's end
   CHECK(watch.most_moving == 0);
 }
 
 TEST_CASE("who is hidden is believed in for a second, is no track after it, and comes out by his name") {
-  Watch watch;
-  watch.look_round();
-  const auto hall_with = [](Disc walker) {
-    Room room = rectangle(12.0, 10.0);
-    room.walls.push_back({{1.5, 0.0}, {1.5, 1.2}});  // hides what is farther to the left than straight ahead, to y = 2
-    room.discs = {walker};
-    return room;
-  };
+  SettledWatch watch;
+  const Wall panel{{1.5, 0.0}, {1.5, 1.2}};  // hides what is farther to the left than straight ahead, to y = 2
   int alone = 0;
   std::uint32_t id = 0;
   for (int k = 0; k < 100; ++k) {
-    watch.see(hall_with({{2.5, -3.0 + 0.06 * k}, 0.25}));  // behind the panel from k = 54 to 80
+    watch.see(with({{{2.5, -3.0 + 0.06 * k}, 0.25}}, {panel}));  // behind the panel from k = 54 to 80
     const std::span<const Track> moving = watch.tracker.moving();
     if (k == 40) id = moving.empty() ? 0 : moving[0].id;
     if (k > 40 && moving.empty()) ++alone;
@@ -74,8 +63,7 @@ TEST_CASE("who is hidden is believed in for a second, is no track after it, and 
 }
 
 TEST_CASE("a track whose place is looked through dies within a second") {
-  Watch watch;
-  watch.look_round();
+  SettledWatch watch;
   for (int k = 0; k < 45; ++k) watch.see(with({{{2.0, -2.0 + 0.06 * k}, 0.27}}));
   REQUIRE(watch.tracker.moving().size() == 1);
   for (int k = 0; k < 16; ++k) watch.see(with({}));
@@ -85,22 +73,20 @@ TEST_CASE("a track whose place is looked through dies within a second") {
 TEST_CASE("what returns nothing in six scans of seven is one and the same, what is looked through meanwhile is not") {
   const Disc somebody{{2.0, 0.5}, 0.1};
   for (const bool is_there : {true, false}) {
-    Watch watch;
-    watch.look_round();
+    SettledWatch watch;
     for (int k = 0; k < 15; ++k) {
-      if (k % 7 > 0 && is_there) {
+      const bool returns_nothing = k % 7 > 0;
+      if (returns_nothing && is_there)
         watch.see_dark(somebody);
-      } else {
-        watch.see(k % 7 > 0 ? with({}) : with({somebody}));
-      }
+      else
+        watch.see(returns_nothing ? with({}) : with({somebody}));
     }
     CHECK(watch.tracker.tracks().size() == (is_there ? 1U : 0U));  // seen three times
   }
 }
 
 TEST_CASE("scans without a single return change nothing") {
-  Watch watch;
-  watch.look_round();
+  SettledWatch watch;
   const EvidenceMap before = watch.tracker.still();
   LaserScan blind = scan_of(rectangle(12.0, 10.0), {}, ++watch.scan);
   for (float& r : blind.range_m) r = std::numeric_limits<float>::quiet_NaN();

@@ -77,9 +77,8 @@ TEST_CASE(
     "what comes into view beside blanked beams may go on behind them: nothing moves, before the robot has turned, "
     "too") {
   Blanked robot({{0.57, 0.89}, {-0.8, -0.43}});
-  Room room = with({{{2.04, -2.42}, 0.38}, {{-2.39, 1.47}, 0.18}, {{3.6, -2.47}, 0.27}});
-  room.walls.push_back({{-1.7, 1.09}, {-2.08, 1.35}});
-  room.walls.push_back({{0.43, 2.63}, {0.69, 3.33}});
+  const Room room = with({{{2.04, -2.42}, 0.38}, {{-2.39, 1.47}, 0.18}, {{3.6, -2.47}, 0.27}},
+                         {{{-1.7, 1.09}, {-2.08, 1.35}}, {{0.43, 2.63}, {0.69, 3.33}}});
   for (int k = 0; k < 150; ++k) {  // 0.6 m/s, and a quarter radian to the right in four seconds
     const double heading = -0.0042 * k;
     robot.see(room, {-4.0 + 0.04 * k, 0.3 * heading, heading});
@@ -91,8 +90,7 @@ TEST_CASE("who stands in the middle of the robot's way round him is somebody all
   Carrier robot;
   for (int k = 0; k < 240; ++k) {
     const double round = 0.03 * std::max(0, k - 30);  // rad; once round, from the third second on
-    const Vec2 place = direction(wrap_angle(round)) * 0.8;
-    robot.see(with({{{}, 0.25}}), {place.x, place.y, wrap_angle(round + kPi / 2)});
+    robot.see(with({{{}, 0.25}}), Pose2{0.0, 0.0, wrap_angle(round)} * Pose2{0.8, 0.0, kPi / 2});
   }
   CHECK(robot.track_near({}) != nullptr);
   CHECK(robot.watch->most_moving == 0);

@@ -1,6 +1,9 @@
 // Legs seen from many sides are a pedestrian; furniture that looks like legs once is none.
 #include "planner/tracking/pedestrian_belief.h"
 
+#include <memory>
+
+#include "tests/perception/cut_scan.h"
 #include "tests/perception/watch.h"
 #include "tests/support/catch.h"
 
@@ -94,23 +97,14 @@ TEST_CASE("a table on four legs, a post, and a post beside a wall are nobody") {
 
 TEST_CASE("furniture that comes into view is nobody, though its ground had been unseen") {
   Watch watch;
-  Room room = with({{{3.0, 1.0}, 0.05}, {{4.0, 2.0}, 0.05}, {{4.5, 1.0}, 0.05}});
-  room.walls.push_back({{2.0, 0.3}, {2.0, 1.5}});
-  drive_by(watch, room);
+  drive_by(watch, with({{{3.0, 1.0}, 0.05}, {{4.0, 2.0}, 0.05}, {{4.5, 1.0}, 0.05}}, {{{2.0, 0.3}, {2.0, 1.5}}}));
   CHECK(watch.tracker.standing().empty());
 }
 
 TEST_CASE("nothing is told of what is hidden, too far off, or as wide as people") {
   const auto legs_of = [](const Room& room, Vec2 place, const Fan& fan = {}) {
-    const LaserScan scan = scan_of(room, {}, 1, 0.0, fan);
-    ScanProjection projection;
-    ScanPoints points;
-    PointsInMap in_map;
-    Segments segments;
-    projection.project(scan, {}, {}, points);
-    for (std::size_t k = 0; k < points.size(); ++k) in_map.position[k] = points[k].in_robot;
-    cut_at_jumps(points, sweep_of(scan), segments);
-    return two_legs_at(place, points, in_map, segments, sweep_of(scan));
+    const auto cut = std::make_unique<CutScan>(scan_of(room, {}, 1, 0.0, fan));
+    return two_legs_at(place, cut->points, cut->in_map, cut->segments, cut->sweep);
   };
   const Vec2 place{3.0, 0.0};
   CHECK(legs_of(with({{{3.0, 0.1}, 0.06}, {{3.0, -0.1}, 0.06}}), place) == true);

@@ -1,54 +1,26 @@
 #include "tests/perception/recordings.h"
 
-#include <zlib.h>
-
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <iostream>
-#include <sstream>
+#include <limits>
+
+#include "apps/formats/logs/line_file.h"
 
 namespace jaywalk::recordings {
-
-std::optional<std::filesystem::path> find(const std::string& file) {
-  const char* from_user = std::getenv("JAYWALK_DATA");
-  const std::filesystem::path folder = from_user != nullptr ? from_user : JAYWALK_DATA_BESIDE;
-  if (std::filesystem::exists(folder / file)) return folder / file;
-  std::cout << "skipped: no data (" << file << ")\n";
-  return std::nullopt;
-}
-
-std::vector<std::string> lines_of(const std::filesystem::path& file) {
-  std::vector<std::string> lines;
-  const gzFile in = gzopen(file.c_str(), "rb");
-  std::vector<char> buffer(1 << 16);
-  while (in != nullptr && gzgets(in, buffer.data(), static_cast<int>(buffer.size())) != nullptr) {
-    lines.emplace_back(buffer.data());
-  }
-  if (in != nullptr) gzclose(in);
-  return lines;
-}
-
 namespace {
 
-void read_ranges(const char* text, std::uint32_t count, LaserScan& scan) {
-  scan.beam_count = count;
-  for (std::uint32_t k = 0; k < count; ++k) {
-    char* end = nullptr;
-    scan.range_m[k] = std::strtof(text, &end);
-    text = end;
-  }
+/// Appends a scan whose ranges are the line's words from `first` on.
+void add_scan(Recording& to, const sim::LineFile& line, double t_s, std::size_t first, std::size_t count,
+              const LaserScan& like) {
+  LaserScan& scan = to.scans.emplace_back(like);
+  scan.stamp = time_from_seconds(t_s);
+  scan.sequence = static_cast<std::uint32_t>(to.scans.size());
+  scan.beam_count = static_cast<std::uint32_t>(count);
+  for (std::size_t k = 0; k < count; ++k) scan.range_m[k] = static_cast<float>(line.number(first + k));
 }
 
-/// Reads `count` numbers and moves `text` behind them.
-std::vector<double> numbers(const char*& text, int count) {
-  std::vector<double> out;
-  for (int k = 0; k < count; ++k) {
-    char* end = nullptr;
-    out.push_back(std::strtod(text, &end));
-    text = end;
-  }
-  return out;
+Pose2 pose_at(const sim::LineFile& line, std::size_t i) {
+  return {line.number(i), line.number(i + 1), line.number(i + 2)};
 }
 
 /// One scan a turn, at most ten times a second: what a replay takes these lasers for (sim::RecordedLog).
@@ -65,67 +37,46 @@ void spin(std::vector<LaserScan>& scans) {
 
 Recording read_scan_odom(const std::filesystem::path& scans, const std::optional<std::filesystem::path>& odometry) {
   Recording out;
-  for (const std::string& line : lines_of(scans)) {
-    if (line[0] == '#') continue;
-    const char* text = line.c_str();
-    const std::vector<double> head = numbers(text, 6);
-    LaserScan scan;
-    scan.stamp = time_from_seconds(head[0]);
-    scan.sequence = static_cast<std::uint32_t>(out.scans.size() + 1);
-    scan.first_angle_rad = static_cast<float>(head[1]);
-    scan.angle_step_rad = static_cast<float>(head[2]);
-    scan.range_min_m = static_cast<float>(head[3]);
-    scan.range_max_m = static_cast<float>(head[4]);
-    read_ranges(text, static_cast<std::uint32_t>(head[5]), scan);
-    out.scans.push_back(scan);
+  for (sim::LineFile line(scans); line.next();) {
+    LaserScan like;
+    like.first_angle_rad = static_cast<float>(line.number(1));
+    like.angle_step_rad = static_cast<float>(line.number(2));
+    like.range_min_m = static_cast<float>(line.number(3));
+    like.range_max_m = static_cast<float>(line.number(4));
+    add_scan(out, line, line.number(0), 6, line.count(5, kMaxBeams), like);
   }
   spin(out.scans);
   if (!odometry) return out;
-  for (const std::string& line : lines_of(*odometry)) {
-    if (line[0] == '#') continue;
-    const char* text = line.c_str();
-    const std::vector<double> row = numbers(text, 4);
-    out.odometry.push_back({row[0], {row[1], row[2], row[3]}});
-  }
+  for (sim::LineFile line(*odometry); line.next();) out.odometry.push_back({line.number(0), pose_at(line, 1)});
   return out;
 }
 
 Recording read_carmen(const std::filesystem::path& file) {
   Recording out;
-  for (const std::string& line : lines_of(file)) {
-    if (line.rfind("FLASER ", 0) != 0) continue;
-    const char* text = line.c_str() + 7;
-    const auto count = static_cast<std::uint32_t>(numbers(text, 1)[0]);
-    LaserScan scan;
-    read_ranges(text, count, scan);
-    for (std::uint32_t k = 0; k < count; ++k) (void)numbers(text, 1);
-    const std::vector<double> poses = numbers(text, 6);
-    const double t = std::strtod(line.c_str() + line.rfind(' '), nullptr);
-    scan.stamp = time_from_seconds(t);
-    scan.sequence = static_cast<std::uint32_t>(out.scans.size() + 1);
-    scan.first_angle_rad = static_cast<float>(-kPi / 2);
-    scan.angle_step_rad = static_cast<float>(kPi / count);
-    scan.range_min_m = 0.05F;
-    scan.range_max_m = 40.0F;
-    out.scans.push_back(scan);
-    out.reference.push_back({t, {poses[0], poses[1], poses[2]}});
-    out.odometry.push_back({t, {poses[3], poses[4], poses[5]}});
+  for (sim::LineFile line(file); line.next();) {
+    if (line.words().front() != "FLASER") continue;
+    const std::size_t count = line.count(1, kMaxBeams), behind = 2 + count;
+    const double t_s = line.number(line.words().size() - 1);
+    LaserScan like;
+    like.first_angle_rad = static_cast<float>(-kPi / 2);
+    like.angle_step_rad = static_cast<float>(kPi / static_cast<double>(count));
+    like.range_min_m = 0.05F;
+    like.range_max_m = 40.0F;
+    add_scan(out, line, t_s, 2, count, like);
+    out.reference.push_back({t_s, pose_at(line, behind)});
+    out.odometry.push_back({t_s, pose_at(line, behind + 3)});
   }
   return out;
 }
 
 std::vector<Label> read_labels(const std::filesystem::path& file) {
   std::vector<Label> out;
-  const std::vector<std::string> lines = lines_of(file);
-  const bool says_who_walks = !lines.empty() && lines.front().find("walks") != std::string::npos;
-  for (const std::string& line : lines) {
-    std::istringstream row(line);
-    Label label;
-    char comma = ',';
-    if (!(row >> label.t_s >> comma >> label.id >> comma >> label.in_laser.x >> comma >> label.in_laser.y)) continue;
-    double last = 0.0;
-    label.walks = !says_who_walks || (row >> comma >> last && last != 0.0);
-    out.push_back(label);
+  sim::LineFile line(file);
+  const bool says_who_walks = line.next() && line.words().back() == "walks";
+  while (line.next()) {
+    const auto id = static_cast<std::uint32_t>(line.count(1, std::numeric_limits<std::uint32_t>::max()));
+    const bool walks = !says_who_walks || line.number(line.words().size() - 1) != 0.0;
+    out.push_back({line.number(0), id, {line.number(2), line.number(3)}, walks});
   }
   return out;
 }

@@ -1,9 +1,8 @@
 #pragma once
-// Reading recordings for the tests that measure: outside the project, skipped where they are not.
+// Reading recordings for the tests that measure.
 #include <cstdint>
 #include <filesystem>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "hal/types/laser_scan.h"
@@ -11,10 +10,6 @@
 #include "hal/types/wheels.h"
 
 namespace jaywalk::recordings {
-
-/// The folder of recordings, if there: $JAYWALK_DATA, else ../shared/data beside the project. Prints "skipped: no data"
-/// when `file` is not in it.
-[[nodiscard]] std::optional<std::filesystem::path> find(const std::string& file);
 
 struct StampedPose {
   double t_s = 0.0;
@@ -34,8 +29,7 @@ struct Recording {
   std::vector<StampedPose> reference;  ///< a pose a scan, corrected by others; empty where there is none
 };
 
-/// A text file, gzipped or not, line by line.
-[[nodiscard]] std::vector<std::string> lines_of(const std::filesystem::path& file);
+/// Text files, gzipped or not.
 [[nodiscard]] Recording read_scan_odom(const std::filesystem::path& scans,
                                        const std::optional<std::filesystem::path>& odometry);
 [[nodiscard]] Recording read_carmen(const std::filesystem::path& file);

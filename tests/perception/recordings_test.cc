@@ -10,10 +10,11 @@
 
 #include "planner/localization/localizer.h"
 #include "planner/tracking/tracker.h"
+#include "tests/recording/recordings.h"
 #include "tests/support/catch.h"
 
 using namespace jaywalk;
-using namespace jaywalk::recordings;
+using namespace recordings;
 
 namespace {
 
@@ -52,12 +53,9 @@ Seen run(const Recording& recording, const Pose2& start, const Pose2& robot_from
 
 /// The scan nearest in time.
 std::size_t scan_at(const Recording& recording, double t_s) {
-  std::size_t best = 0;
-  for (std::size_t k = 0; k < recording.scans.size(); ++k) {
-    const auto off = [&](std::size_t i) { return std::fabs(to_seconds(recording.scans[i].stamp) - t_s); };
-    if (off(k) < off(best)) best = k;
-  }
-  return best;
+  const auto nearest = std::ranges::min_element(
+      recording.scans, {}, [&](const LaserScan& scan) { return std::fabs(to_seconds(scan.stamp) - t_s); });
+  return static_cast<std::size_t>(nearest - recording.scans.begin());
 }
 
 bool near_track(const std::vector<Track>& tracks, Vec2 place, double within_m, bool moving_only) {
@@ -73,7 +71,7 @@ struct WalkersFound {
 
 /// A recording whose labels are ours (bench/tracking/labels); nothing where it is missing.
 std::optional<WalkersFound> walkers_found(const std::string& name) {
-  const auto file = find("static/" + name + ".scan.txt.gz");
+  const auto file = recording("static/" + name + ".scan.txt.gz");
   if (!file) return std::nullopt;
   const Recording recording = read_scan_odom(*file, std::nullopt);
   const Seen seen = run(recording, {}, {});
@@ -106,7 +104,7 @@ TEST_CASE("pedestrians who come straight towards a standing robot are known to w
 }
 
 TEST_CASE("nothing moves where nobody is") {
-  const auto file = find("static/no_people_left.scan.txt.gz");
+  const auto file = recording("static/no_people_left.scan.txt.gz");
   if (!file) return;
   const Recording recording = read_scan_odom(*file, std::nullopt);
   const Seen seen = run(recording, {}, {});
@@ -116,7 +114,7 @@ TEST_CASE("nothing moves where nobody is") {
 }
 
 TEST_CASE("hardly anything moves where nobody is, wherever the recording begins") {
-  const auto file = find("static/no_people_left.scan.txt.gz");
+  const auto file = recording("static/no_people_left.scan.txt.gz");
   if (!file) return;
   const Recording all = read_scan_odom(*file, std::nullopt);
   std::size_t starts = 0, misled = 0;
@@ -135,7 +133,7 @@ TEST_CASE("hardly anything moves where nobody is, wherever the recording begins"
 // 0.16 m, largest 0.46 m, 7 above 0.25 m; the version before: 0.16 m, 0.44 m, 8. Which of the few pedestrians there are
 // known to walk is chance, too.
 TEST_CASE("after five minutes in Freiburg poses are a fifth of a metre right on average and hardly anything moves") {
-  const auto file = find("carmen/freiburg-079-corrected.log.gz");
+  const auto file = recording("carmen/freiburg-079-corrected.log.gz");
   if (!file) return;
   Recording recording = read_carmen(*file);
   recording.scans.resize(1500);
@@ -157,9 +155,9 @@ TEST_CASE("after five minutes in Freiburg poses are a fifth of a metre right on 
 }
 
 TEST_CASE("people before a wheelchair are tracked where they were labelled") {
-  const auto scans = find("wheelchair/scan.txt.gz");
-  const auto odometry = find("wheelchair/odom.txt.gz");
-  const auto people = find("wheelchair/people.csv.gz");
+  const auto scans = recording("wheelchair/scan.txt.gz");
+  const auto odometry = recording("wheelchair/odom.txt.gz");
+  const auto people = recording("wheelchair/people.csv.gz");
   if (!scans || !odometry || !people) return;
   const Recording recording = read_scan_odom(*scans, odometry);
   const Pose2 robot_from_laser{0.6, 0.2, 0.715};  // by eye, from the corridor's walls and the odometry

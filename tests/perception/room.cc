@@ -30,9 +30,11 @@ double ripple(std::uint32_t scan, std::uint32_t beam) {
 
 }  // namespace
 
-Room rectangle(double width, double depth) {
+Room rectangle(double width, double depth, std::initializer_list<Disc> discs, std::initializer_list<Wall> walls) {
   const double x = width / 2, y = depth / 2;
-  return {.walls = {{{-x, -y}, {x, -y}}, {{x, -y}, {x, y}}, {{x, y}, {-x, y}}, {{-x, y}, {-x, -y}}}, .discs = {}};
+  Room room{.walls = {{{-x, -y}, {x, -y}}, {{x, -y}, {x, y}}, {{x, y}, {-x, y}}, {{-x, y}, {-x, -y}}}, .discs = discs};
+  room.walls.insert(room.walls.end(), walls);
+  return room;
 }
 
 LaserScan scan_of(const Room& room, const Pose2& map_from_laser, std::uint32_t k, double noise_m, const Fan& fan) {

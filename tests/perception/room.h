@@ -1,5 +1,6 @@
 #pragma once
 // A room to look round in: straight walls and discs, and the scan that an exact laser would take of them.
+#include <initializer_list>
 #include <vector>
 
 #include "hal/types/geometry.h"
@@ -17,12 +18,18 @@ struct Disc {
 };
 
 struct Room {
-  std::vector<Wall> walls;
-  std::vector<Disc> discs;
+  std::vector<Wall> walls{};
+  std::vector<Disc> discs{};
 };
 
-/// Four walls, `width` by `depth`, centred on the origin.
-[[nodiscard]] Room rectangle(double width, double depth);
+/// Four walls, `width` by `depth`, centred on the origin, and in them discs and more walls.
+[[nodiscard]] Room rectangle(double width, double depth, std::initializer_list<Disc> discs = {},
+                             std::initializer_list<Wall> walls = {});
+
+/// The same of 12 m x 10 m.
+[[nodiscard]] inline Room with(std::initializer_list<Disc> discs, std::initializer_list<Wall> walls = {}) {
+  return rectangle(12.0, 10.0, discs, walls);
+}
 
 /// How the laser's beams lie.
 struct Fan {

@@ -1,12 +1,11 @@
 #include "bench/tracking/run_folder.h"
 
-#include <unistd.h>
 #include <zlib.h>
 
 #include <cmath>
-#include <fstream>
 
 #include "hal/types/errors.h"
+#include "tests/recording/scratch.h"
 #include "tests/support/catch.h"
 
 using namespace jaywalk;
@@ -14,11 +13,9 @@ using namespace jaywalk::bench;
 
 namespace {
 
-/// A folder that is gone with the test.
-class MadeRun {
- public:
+/// The folder of a run.
+struct MadeRun : Scratch {
   MadeRun() {
-    std::filesystem::create_directories(folder_);
     write("tracks.csv",
           "t_s,id,x_m,y_m,vx_mps,vy_mps,moving,std_m\n"
           "1.000000,4,2.0,0.0,0.5,0.0,1,0.1\n1.000000,5,7.0,0.0,0.0,0.0,0,0.1\n1.066667,4,2.1,0.0,0.5,0.0,1,0.1\n");
@@ -26,26 +23,29 @@ class MadeRun {
           "t_s,x_m,y_m,heading_rad,est_x_m,est_y_m,est_heading_rad,reasons\n"
           "0.980000,,,,1.0,0.0,0.0,\n1.000000,,,,1.0,1.0,1.5707963267948966,none\n");
   }
-  ~MadeRun() { std::filesystem::remove_all(folder_); }
-  MadeRun(const MadeRun&) = delete;
-  MadeRun& operator=(const MadeRun&) = delete;
-
-  std::filesystem::path write(const std::string& name, const std::string& text) const {
-    std::ofstream(folder_ / name) << text;
-    return folder_ / name;
-  }
-  [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
-
- private:
-  std::filesystem::path folder_ =
-      std::filesystem::temp_directory_path() / ("jaywalk-made-run-" + std::to_string(::getpid()));
+  [[nodiscard]] RunFolder run() const { return RunFolder(folder()); }
 };
+
+struct Frame {
+  double t_s = 0.0;
+  std::vector<Target> targets;
+};
+
+/// What such labels of the run give.
+std::vector<Frame> frames_of(const std::string& labels, const LabelRule& rule) {
+  const MadeRun made;
+  std::vector<Frame> frames;
+  labelled_frames(made.write("people.csv", labels), made.run(), rule,
+                  [&](double t_s, const std::vector<Target>& targets) {
+                    frames.push_back({t_s, targets});
+                  });
+  return frames;
+}
 
 }  // namespace
 
 TEST_CASE("tracks are those of the nearest scan and standing ones can be left out") {
-  const MadeRun made;
-  const RunFolder run(made.folder());
+  const RunFolder run = MadeRun().run();
   CHECK(run.tracks_at(1.001, false).size() == 2);
   REQUIRE(run.tracks_at(1.001, true).size() == 1);
   CHECK(run.tracks_at(1.06, true)[0].position_in_map.x == 2.1);
@@ -54,75 +54,51 @@ TEST_CASE("tracks are those of the nearest scan and standing ones can be left ou
 }
 
 TEST_CASE("labels in the laser's frame are placed by pose and mount") {
-  const MadeRun made;
-  const RunFolder run(made.folder());
-  const auto file = made.write("people.csv", "t_bag,id,x,y,z\n1.0,3,2.0,0.5,0.0\n");
-  std::vector<Target> seen;
   // Robot at (1, 1) facing +y, laser 0.5 m before it: (2, 0.5) in the laser is (2.5, 0.5) in the robot,
   // and (1 - 0.5, 1 + 2.5) in the map.
-  labelled_frames(file, run, {.robot_from_laser = {0.5, 0.0, 0.0}},
-                  [&](double, const std::vector<Target>& targets) { seen = targets; });
-  REQUIRE(seen.size() == 1);
-  CHECK(seen[0].id == 3);
-  CHECK(seen[0].position_in_map.x == Approx(0.5));
-  CHECK(seen[0].position_in_map.y == Approx(3.5));
+  const auto frames = frames_of("t_bag,id,x,y,z\n1.0,3,2.0,0.5,0.0\n", {.robot_from_laser = {0.5, 0.0, 0.0}});
+  REQUIRE(frames.size() == 1);
+  REQUIRE(frames[0].targets.size() == 1);
+  const Target& seen = frames[0].targets[0];
+  CHECK(seen.id == 3);
+  CHECK(distance(seen.position_in_map, {0.5, 3.5}) < 5e-6);
 }
 
 TEST_CASE("labels that were timed when the scan had arrived hold for its stamp") {
-  const MadeRun made;
-  const RunFolder run(made.folder());
-  const auto file = made.write("people.csv", "t_bag,id,x,y,z\n1.11,3,2.0,0.0,0.0\n");
-  double when_s = 0.0;
-  Vec2 there;
-  const LabelRule rule{.late_s = 0.13};
   // 1.11 - 0.13 = 0.98 s, when the robot stood at (1, 0) facing +x; at 1 s it has turned.
-  labelled_frames(file, run, rule, [&](double t_s, const std::vector<Target>& targets) {
-    when_s = t_s;
-    there = targets[0].position_in_map;
-  });
-  CHECK(when_s == Approx(0.98));
-  CHECK(there.x == Approx(3.0));
-  CHECK(there.y == Approx(0.0).margin(1e-9));
+  const auto frames = frames_of("t_bag,id,x,y,z\n1.11,3,2.0,0.0,0.0\n", {.late_s = 0.13});
+  REQUIRE(frames.size() == 1);
+  CHECK(frames[0].t_s == Approx(0.98));
+  CHECK(distance(frames[0].targets.at(0).position_in_map, {3.0, 0.0}) < 1e-9);
 }
 
 TEST_CASE("labels in the map stay where they are") {
-  const MadeRun made;
-  const RunFolder run(made.folder());
-  const auto file = made.write("people.csv", "t_s,id,x_m,y_m\n1.0,3,2.0,0.5\n1.0,4,3.0,0.5\n1.1,3,2.0,0.6\n");
-  std::size_t frames = 0, targets = 0;
-  labelled_frames(file, run, {.robot_from_laser = {9.0, 9.0, 9.0}}, [&](double, const std::vector<Target>& t) {
-    frames += 1;
-    targets += t.size();
-  });
-  CHECK(frames == 2);
-  CHECK(targets == 3);
+  const auto frames =
+      frames_of("t_s,id,x_m,y_m\n1.0,3,2.0,0.5\n1.0,4,3.0,0.5\n1.1,3,2.0,0.6\n", {.robot_from_laser = {9.0, 9.0, 9.0}});
+  REQUIRE(frames.size() == 2);
+  CHECK(frames[0].targets.size() + frames[1].targets.size() == 3);
 }
 
 TEST_CASE("finding those who do not walk or have labels only before and after is neither right nor wrong") {
-  const MadeRun made;
-  const RunFolder run(made.folder());
-  const auto file = made.write("people.csv",
-                               "t_s,id,x_m,y_m,walks\n1.0,3,2.0,0.5,1\n1.0,4,3.0,0.5,0\n"
-                               "1.1,4,3.0,0.5,1\n1.4,3,2.8,0.5,1\n");
-  std::vector<std::vector<Target>> frames;
-  const FrameSink keep = [&](double, const std::vector<Target>& t) { frames.push_back(t); };
-  labelled_frames(file, run, {.between_s = 0.39}, keep);
+  const std::string labels =
+      "t_s,id,x_m,y_m,walks\n1.0,3,2.0,0.5,1\n1.0,4,3.0,0.5,0\n1.1,4,3.0,0.5,1\n1.4,3,2.8,0.5,1\n";
+  auto frames = frames_of(labels, {.between_s = 0.39});
   REQUIRE(frames.size() == 3);
-  CHECK(frames[0][0].in_view);
-  CHECK_FALSE(frames[0][1].in_view);
-  CHECK(frames[1].size() == 1);  // 3 is 0.4 s between its labels
-  frames.clear();
-  labelled_frames(file, run, {.between_s = 0.41}, keep);
-  REQUIRE(frames[1].size() == 2);
-  CHECK(frames[1][1].id == 3);
-  CHECK(frames[1][1].position_in_map.x == Approx(2.2));  // a quarter of the way from 2.0 to 2.8
-  CHECK_FALSE(frames[1][1].in_view);
-  CHECK(frames[2].size() == 1);  // nobody knows of 4 after 1.1
+  CHECK(frames[0].targets[0].in_view);
+  CHECK_FALSE(frames[0].targets[1].in_view);
+  CHECK(frames[1].targets.size() == 1);  // 3 is 0.4 s between its labels
+  frames = frames_of(labels, {.between_s = 0.41});
+  REQUIRE(frames[1].targets.size() == 2);
+  const Target& between = frames[1].targets[1];
+  CHECK(between.id == 3);
+  CHECK(between.position_in_map.x == Approx(2.2));  // a quarter of the way from 2.0 to 2.8
+  CHECK_FALSE(between.in_view);
+  CHECK(frames[2].targets.size() == 1);  // nobody knows of 4 after 1.1
 }
 
 TEST_CASE("tables without the column or with a short row are refused") {
   const MadeRun made;
-  CHECK_THROWS_AS(NumberTable(made.folder() / "none.csv"), StartupError);
+  CHECK_THROWS_AS(NumberTable(made.path("none.csv")), StartupError);
   CHECK_THROWS_AS(NumberTable(made.write("short.csv", "a,b,c\n1\n")), StartupError);
   const NumberTable table(made.write("good.csv", "a,b\n1,word\n"));
   CHECK(table.column("a")[0] == 1.0);
@@ -168,7 +144,7 @@ TEST_CASE("a table with carriage returns reads like one without, and a cut .gz i
   const MadeRun made;
   const NumberTable table(made.write("crlf.csv", "a,b\r\n1, 2.5\r\n"));
   CHECK(table.column("b")[0] == 2.5);
-  const std::string gz = (made.folder() / "table.csv.gz").string();
+  const std::string gz = made.path("table.csv.gz");
   const gzFile out = gzopen(gz.c_str(), "wb");
   std::string text = "a,b\n";
   for (int k = 0; k < 2000; ++k) text += std::to_string(k * k % 977) + "," + std::to_string(k) + "\n";
@@ -181,17 +157,16 @@ TEST_CASE("a table with carriage returns reads like one without, and a cut .gz i
 
 TEST_CASE("labels and references most of whose times lie outside the run are another recording's") {
   const MadeRun made;  // 0.98 to 1.00 s, and a second more on either side
-  const RunFolder run(made.folder());
   const auto labelled = [&](const std::string& rows) {
     const auto file = made.write("people.csv", "t_s,id,x_m,y_m\n" + rows);
-    return refusal([&] { labelled_frames(file, run, {}, [](double, const std::vector<Target>&) {}); });
+    return refusal([&] { labelled_frames(file, made.run(), {}, [](double, const std::vector<Target>&) {}); });
   };
   CHECK(labelled("1.0,3,2,0\n9.0,3,2,0\n").empty());
   CHECK(labelled("1.0,3,2,0\n9.0,3,2,0\n9.5,3,2,0\n").find("1 of its 3 times lie in the run") != std::string::npos);
   CHECK(labelled("").find("0 of its 0 times") != std::string::npos);
   const auto referred = [&](const std::string& lines) {
     const auto file = made.write("log.carmen", lines);
-    return refusal([&] { static_cast<void>(reference_poses(file, run)); });
+    return refusal([&] { static_cast<void>(reference_poses(file, made.run())); });
   };
   CHECK(referred(laser_line("1.0") + laser_line("9.0")).empty());
   CHECK(referred(laser_line("1.0") + laser_line("9.0") + laser_line("9.5")).find("1 of its 3") != std::string::npos);

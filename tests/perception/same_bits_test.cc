@@ -43,10 +43,8 @@ class Digest {
 
 /// Two walkers, a pillar, a wall that juts into the room.
 Room room_after(double s) {
-  Room room = rectangle(12.0, 10.0);
-  room.walls.push_back({{-3.0, -5.0}, {-3.0, -2.0}});
-  room.discs = {{{3.5, -2.5}, 0.3}, {{2.5, -3.0 + 0.9 * s}, 0.25}, {{-1.0 + 0.7 * s, 3.0 - 0.2 * s}, 0.2}};
-  return room;
+  return with({{{3.5, -2.5}, 0.3}, {{2.5, -3.0 + 0.9 * s}, 0.25}, {{-1.0 + 0.7 * s, 3.0 - 0.2 * s}, 0.2}},
+              {{{-3.0, -5.0}, {-3.0, -2.0}}});
 }
 
 /// The wheels' angles after `k` steps of an arc.

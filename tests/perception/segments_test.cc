@@ -1,9 +1,7 @@
 #include <memory>
 #include <utility>
 
-#include "planner/mapping/map_entry.h"
-#include "planner/scan/scan_points.h"
-#include "planner/tracking/detection.h"
+#include "tests/perception/cut_scan.h"
 #include "tests/perception/room.h"
 #include "tests/support/catch.h"
 
@@ -12,27 +10,20 @@ using namespace jaywalk::test;
 
 namespace {
 
-/// A scan from the origin, cut and judged against a map.
-struct Cut {
-  explicit Cut(const Room& room, const EvidenceMap& still = EvidenceMap(256, 0.1, {}), const Fan& fan = {},
-               double noise_m = 0.0) {
-    const LaserScan scan = scan_of(room, {}, 1, noise_m, fan);
-    const Sweep sweep = sweep_of(scan);
-    ScanProjection().project(scan, {}, {}, points);
-    begin_at_a_jump(sweep, points);
-    for (std::size_t k = 0; k < points.size(); ++k) {
-      in_map.position[k] = points[k].in_robot;
-      in_map.ground[k] = ground_at(still, points[k].in_robot, points[k].range_m);
-    }
-    cut_at_jumps(points, sweep, segments);
-    find_detections(points, in_map, segments, sweep, {0.0, 0.0}, detections);
-  }
+using Cut = std::unique_ptr<CutScan>;
 
-  ScanPoints points;
-  PointsInMap in_map;
-  Segments segments;
-  Detections detections;
-};
+/// A scan, cut and judged against a map.
+Cut cut_on(const EvidenceMap& still, const Room& room, const Fan& fan = {}, double noise_m = 0.0) {
+  auto cut = std::make_unique<CutScan>(scan_of(room, {}, 1, noise_m, fan));
+  for (std::size_t k = 0; k < cut->points.size(); ++k)
+    cut->in_map.ground[k] = ground_at(still, cut->in_map.position[k], cut->points[k].range_m);
+  cut->find();
+  return cut;
+}
+
+Cut cut_on_unknown(const Room& room, double noise_m = 0.0) {
+  return cut_on(EvidenceMap(256, 0.1, {}), room, {}, noise_m);
+}
 
 EvidenceMap seen_free_all_over() {
   EvidenceMap map(256, 0.1, {});
@@ -42,13 +33,15 @@ EvidenceMap seen_free_all_over() {
   return map;
 }
 
+Cut cut_on_free(const Room& room, const Fan& fan = {}) { return cut_on(seen_free_all_over(), room, fan); }
+
+/// Hides what lies to the right of straight ahead.
+const Wall kHidesTheRight{{1.0, 0.0}, {1.0, -0.8}};
+
 }  // namespace
 
 TEST_CASE("a disc before a wall is a segment of its own") {
-  Room room;
-  room.walls = {{{4.0, -2.0}, {4.0, 2.0}}};
-  room.discs = {{{2.0, 0.0}, 0.25}};
-  const auto cut = std::make_unique<Cut>(room);
+  const Cut cut = cut_on_unknown({.walls = {{{4.0, -2.0}, {4.0, 2.0}}}, .discs = {{{2.0, 0.0}, 0.25}}});
   CHECK(cut->segments.size() == 3);  // wall, disc, wall
 }
 
@@ -66,20 +59,17 @@ TEST_CASE("two points are one thing or two whichever way the scanner turns") {
 }
 
 TEST_CASE("a wall at a slant is one thing, and a body before it another") {
-  Room room;
-  room.walls = {{{2.0, 1.0}, {12.0, 1.0}}};  // 27 to 5 degrees; its farthest points are 0.7 m apart
-  const auto wall = std::make_unique<Cut>(room, EvidenceMap(256, 0.1, {}), Fan{}, 0.01);
+  Room room{.walls = {{{2.0, 1.0}, {12.0, 1.0}}}};  // 27 to 5 degrees; its farthest points are 0.7 m apart
+  const Cut wall = cut_on_unknown(room, 0.01);
   CHECK(wall->segments.back().first == 1);  // the first and farthest has no step beyond it
   room.discs = {{{6.0, 0.5}, 0.27}};
-  const auto cut = std::make_unique<Cut>(room, EvidenceMap(256, 0.1, {}), Fan{}, 0.01);
+  const Cut cut = cut_on_unknown(room, 0.01);
   REQUIRE(cut->detections.size() == 1);
   CHECK(distance(cut->detections[0].centre_in_map, {6.0, 0.5}) < 0.05);
 }
 
 TEST_CASE("a body's centre lies behind its visible arc") {
-  Room room;
-  room.discs = {{{3.0, 1.0}, 0.27}};
-  const auto cut = std::make_unique<Cut>(room, seen_free_all_over());
+  const Cut cut = cut_on_free({.discs = {{{3.0, 1.0}, 0.27}}});
   REQUIRE(cut->detections.size() == 1);
   const Detection& detection = cut->detections[0];
   CHECK(distance(detection.centre_in_map, {3.0, 1.0}) < 0.04);
@@ -89,25 +79,19 @@ TEST_CASE("a body's centre lies behind its visible arc") {
 }
 
 TEST_CASE("what is wider than a body is a wall wherever it stands") {
-  Room room;
-  room.walls = {{{3.0, -0.85}, {3.0, 0.85}}};
-  const auto cut = std::make_unique<Cut>(room, seen_free_all_over());
+  const Wall wall{{3.0, -0.85}, {3.0, 0.85}};
+  const Cut cut = cut_on_free({.walls = {wall}});
   CHECK(cut->segments.size() == 1);
   CHECK(cut->detections.empty());
-  Room closed = rectangle(12.0, 10.0);  // seen to end on both sides
-  closed.walls.push_back(room.walls[0]);
-  CHECK(std::make_unique<Cut>(closed, seen_free_all_over())->detections.empty());
+  CHECK(cut_on_free(with({}, {wall}))->detections.empty());  // seen to end on both sides
 }
 
 TEST_CASE("what is wider than 1.1 m may be a body where it is seen to end on both sides, and else is a wall") {
-  Room room = rectangle(12.0, 10.0);
-  room.discs = {{{3.0, 0.0}, 0.7}};
-  REQUIRE(std::make_unique<Cut>(room, seen_free_all_over())->detections.size() == 1);
-  room.walls.push_back({{1.5, 0.29}, {1.5, 0.9}});                                   // hides a tenth of it
-  CHECK(std::make_unique<Cut>(room, seen_free_all_over())->detections.size() == 1);  // the little wall alone
-  room = {};
-  room.discs = {{{3.0, 0.0}, 0.7}};  // nothing is seen beside it
-  CHECK(std::make_unique<Cut>(room, seen_free_all_over())->detections.empty());
+  const Disc wide{{3.0, 0.0}, 0.7};
+  const Wall hides_a_tenth{{1.5, 0.29}, {1.5, 0.9}};
+  REQUIRE(cut_on_free(with({wide}))->detections.size() == 1);
+  CHECK(cut_on_free(with({wide}, {hides_a_tenth}))->detections.size() == 1);  // the little wall alone
+  CHECK(cut_on_free({.discs = {wide}})->detections.empty());                  // nothing is seen beside it
 }
 
 TEST_CASE("points within a wall's noise are the wall's") {
@@ -142,27 +126,17 @@ TEST_CASE("a surface is no wall before it has stood for a second") {
 }
 
 TEST_CASE("in unknown space what goes on behind nearer things on both sides is no body") {
-  Room room;  // a wall seen through a gap of 0.4 m, and a disc that nothing hides
-  room.walls = {{{1.0, 0.2}, {1.0, 2.0}}, {{1.0, -0.2}, {1.0, -2.0}}, {{1.5, -2.0}, {1.5, 2.0}}};
-  room.discs = {{{-1.0, 2.0}, 0.2}};
-  const auto cut = std::make_unique<Cut>(room);
-  bool gap = false, disc = false;
-  for (const Detection& c : cut->detections) {
-    gap = gap || distance(c.centre_in_map, {1.5, 0.0}) < 0.4;
-    disc = disc || distance(c.centre_in_map, {-1.0, 2.0}) < 0.1;
-  }
-  CHECK(disc);
-  CHECK_FALSE(gap);
+  // A wall seen through a gap of 0.4 m, and a disc that nothing hides.
+  const Cut cut =
+      cut_on_unknown({.walls = {{{1.0, 0.2}, {1.0, 2.0}}, {{1.0, -0.2}, {1.0, -2.0}}, {{1.5, -2.0}, {1.5, 2.0}}},
+                      .discs = {{{-1.0, 2.0}, 0.2}}});
+  CHECK(cut->near({-1.0, 2.0}, 0.1) != nullptr);
+  CHECK(cut->near({1.5, 0.0}, 0.4) == nullptr);
 }
 
 TEST_CASE("a body half behind something nearer knows which of its sides is hidden") {
-  Room room;
-  room.walls = {{{1.0, 0.0}, {1.0, -0.8}},
-                {{5.0, -4.0}, {5.0, 4.0}}};  // hides what lies to the right of straight ahead
-  room.discs = {{{3.0, 0.0}, 0.27}};
-  const auto cut = std::make_unique<Cut>(room, seen_free_all_over());
-  const Detection* half = nullptr;
-  for (const Detection& c : cut->detections) half = distance(c.centre_in_map, {3.0, 0.1}) < 0.3 ? &c : half;
+  const Cut cut = cut_on_free({.walls = {kHidesTheRight, {{5.0, -4.0}, {5.0, 4.0}}}, .discs = {{{3.0, 0.0}, 0.27}}});
+  const Detection* const half = cut->near({3.0, 0.1}, 0.3);
   REQUIRE(half != nullptr);
   CHECK(half->low_hidden());  // beams count from right to left
   CHECK_FALSE(half->high_hidden());
@@ -173,23 +147,17 @@ TEST_CASE("a body half behind something nearer knows which of its sides is hidde
 }
 
 TEST_CASE("a side beside which beams return nothing is not seen to end") {
-  Room room;
-  room.walls = {{{1.0, 0.0}, {1.0, -0.8}}};  // hides one half, and behind the other there is nothing
-  room.discs = {{{3.0, 0.0}, 0.27}};
-  const auto cut = std::make_unique<Cut>(room, seen_free_all_over());
-  const Detection* half = nullptr;
-  for (const Detection& c : cut->detections) half = distance(c.centre_in_map, {3.0, 0.1}) < 0.3 ? &c : half;
+  const Cut cut = cut_on_free({.walls = {kHidesTheRight}, .discs = {{{3.0, 0.0}, 0.27}}});
+  const Detection* const half = cut->near({3.0, 0.1}, 0.3);
   REQUIRE(half != nullptr);
   CHECK(half->low_end == End::kHidden);
   CHECK(half->high_end == End::kUnknown);
 }
 
 TEST_CASE("what is half behind a leg is not behind more: legs take turns in hiding one another") {
-  Room room;
-  room.discs = {{{2.0, 0.0}, 0.06}, {{3.0, 0.15}, 0.1}};  // the nearer hides what lies up to 0.09 m left of straight
-  const auto cut = std::make_unique<Cut>(room, seen_free_all_over());
-  const Detection* half = nullptr;
-  for (const Detection& c : cut->detections) half = distance(c.centre_in_map, {3.0, 0.17}) < 0.2 ? &c : half;
+  // The nearer hides what lies up to 0.09 m left of straight.
+  const Cut cut = cut_on_free({.discs = {{{2.0, 0.0}, 0.06}, {{3.0, 0.15}, 0.1}}});
+  const Detection* const half = cut->near({3.0, 0.17}, 0.2);
   REQUIRE(half != nullptr);
   CHECK(half->low_hidden());
   CHECK_FALSE(half->behind_more);
@@ -197,21 +165,19 @@ TEST_CASE("what is half behind a leg is not behind more: legs take turns in hidi
 
 TEST_CASE("a narrow piece hides more than a leg where something wide that is nearer hides it, well before") {
   const auto behind_more = [](double piece_x_m) {
-    Room room;  // a wall hides all but a hand's breadth of a piece beside it, and that one a body's right half
-    room.walls = {{{0.5, 0.0}, {0.5, -0.8}}, {{piece_x_m, -1.0}, {piece_x_m, 0.1}}, {{6.0, -4.0}, {6.0, 4.0}}};
-    room.discs = {{{3.0, 0.1 * 3.0 / piece_x_m}, 0.27}};
-    const auto cut = std::make_unique<Cut>(room, seen_free_all_over());
-    for (const Detection& c : cut->detections) {
-      if (distance(c.centre_in_map, {3.0, 0.3}) < 0.35) return c.behind_more;
-    }
-    return false;
+    // A wall hides all but a hand's breadth of a piece beside it, and that one a body's right half.
+    const Cut cut = cut_on_free(
+        {.walls = {{{0.5, 0.0}, {0.5, -0.8}}, {{piece_x_m, -1.0}, {piece_x_m, 0.1}}, {{6.0, -4.0}, {6.0, 4.0}}},
+         .discs = {{{3.0, 0.1 * 3.0 / piece_x_m}, 0.27}}});
+    const Detection* const body = cut->near({3.0, 0.3}, 0.35);
+    return body != nullptr && body->behind_more;
   };
   CHECK(behind_more(1.5));
   CHECK_FALSE(behind_more(2.5));  // a piece of the same heap
 }
 
 /// Of what has stood there for two seconds.
-std::unique_ptr<Cut> stood(const Room& room) {
+Cut stood(const Room& room) {
   EvidenceMap map = seen_free_all_over();
   const LaserScan scan = scan_of(room, {}, 1);
   for (std::size_t b = 0; b < scan.beam_count; ++b) {
@@ -219,18 +185,17 @@ std::unique_ptr<Cut> stood(const Room& room) {
     for (int k = 0; k < 8; ++k)
       map.add_hit(direction(scan.angle_rad(b)) * static_cast<double>(scan.range_m[b]), 10, 0.25);
   }
-  return std::make_unique<Cut>(room, map);
+  return cut_on(map, room);
 }
 
 TEST_CASE("who stood for long is watched before open space as well, where no beam beside him returns anything") {
   const double away_m = GENERATE(0.6, 1.0, 3.0, 7.0);
-  Room room;
-  room.discs = {{direction(0.5) * away_m, 0.27}};
+  Room room{.discs = {{direction(0.5) * away_m, 0.27}}};
   for (const double slant : {-0.5, -0.25, 0.0, 0.25, 0.5}) {  // panels, half a metre wide, at up to 80 degrees
     const Vec2 place = direction(-1.2 + slant) * 3.0, along = direction(-1.2 + slant + 2.8 * slant + kPi / 2);
     room.walls.push_back({place + along * -0.25, place + along * 0.25});
   }
-  const auto cut = stood(room);
+  const Cut cut = stood(room);
   REQUIRE(cut->detections.size() == 1);
   const Detection& him = cut->detections[0];
   CHECK(distance(him.centre_in_map, room.discs[0].centre) < 0.1);
@@ -239,17 +204,14 @@ TEST_CASE("who stood for long is watched before open space as well, where no bea
 }
 
 TEST_CASE("what has stood there half hidden is not watched, round or not, nor where nothing is seen beside it") {
-  Room room;
-  room.discs = {{{3.0, 0.0}, 0.5}};  // half of it is as wide as a body
-  room.walls = {{{1.0, 0.0}, {1.0, -1.2}}};
-  CHECK(stood(room)->detections.empty());
+  // Half of it is as wide as a body.
+  CHECK(stood({.walls = {{{1.0, 0.0}, {1.0, -1.2}}}, .discs = {{{3.0, 0.0}, 0.5}}})->detections.empty());
 }
 
 TEST_CASE("where a wall stands only what stands alone and is as wide as a body is watched") {
-  Room room = rectangle(10.0, 8.0);
-  room.discs = {{{3.0, 1.0}, 0.27}, {{2.0, -1.5}, 0.08}, {{3.4, 2.9}, 0.9}};
-  room.walls.push_back({{1.0, 2.6}, {1.2, 2.9}});  // half a body's width
-  const auto cut = stood(room);
+  const Wall half_as_wide_as_a_body{{1.0, 2.6}, {1.2, 2.9}};
+  const Cut cut = stood(
+      rectangle(10.0, 8.0, {{{3.0, 1.0}, 0.27}, {{2.0, -1.5}, 0.08}, {{3.4, 2.9}, 0.9}}, {half_as_wide_as_a_body}));
   REQUIRE(cut->detections.size() == 1);
   CHECK(distance(cut->detections[0].centre_in_map, {3.0, 1.0}) < 0.04);
   CHECK(cut->detections[0].on_wall);
@@ -257,9 +219,7 @@ TEST_CASE("where a wall stands only what stands alone and is as wide as a body i
 }
 
 TEST_CASE("what reaches the end of the sweep may go on outside it") {
-  Room room = rectangle(10.0, 10.0);
-  room.discs = {{direction(0.75 * kPi) * 3.0, 0.27}};
-  const auto cut = std::make_unique<Cut>(room, seen_free_all_over());
+  const Cut cut = cut_on_free(rectangle(10.0, 10.0, {{direction(0.75 * kPi) * 3.0, 0.27}}));
   REQUIRE(cut->detections.size() == 1);
   CHECK(cut->detections[0].high_hidden());
   CHECK_FALSE(cut->detections[0].low_hidden());
@@ -267,12 +227,11 @@ TEST_CASE("what reaches the end of the sweep may go on outside it") {
 }
 
 TEST_CASE("who stands where a scanner that looks all round begins its turn is one body, whole") {
-  Room room = rectangle(10.0, 8.0);
-  room.discs = {{{3.0, 0.0}, 0.27}};
+  const Room room = rectangle(10.0, 8.0, {{{3.0, 0.0}, 0.27}});
   for (const double step_deg : {0.5, -0.5}) {         // from straight ahead on, either way round
     for (const std::uint32_t beams : {720U, 721U}) {  // the last beam beside the first, or on it
       const Fan fan{.beams = beams, .first_rad = 0.0, .step_rad = step_deg * kPi / 180.0};
-      const auto cut = std::make_unique<Cut>(room, seen_free_all_over(), fan);
+      const Cut cut = cut_on_free(room, fan);
       REQUIRE(cut->detections.size() == 1);
       const Detection& detection = cut->detections[0];
       CHECK(distance(detection.centre_in_map, {3.0, 0.0}) < 0.04);
@@ -287,11 +246,10 @@ TEST_CASE("who stands where a scanner that looks all round begins its turn is on
 }
 
 TEST_CASE("where a scan all round begins, sides and what hides them are told beyond its ends as well") {
-  Room room = rectangle(10.0, 8.0);
-  room.discs = {{{3.0, 0.0}, 0.27}};
-  room.walls.push_back({{1.5, -1.0}, {1.5, -0.005}});  // hides the right half, up to the last beam
+  const Wall hides_the_right_half{{1.5, -1.0}, {1.5, -0.005}};  // up to the last beam
+  const Room room = rectangle(10.0, 8.0, {{{3.0, 0.0}, 0.27}}, {hides_the_right_half});
   const Fan fan{.beams = 720, .first_rad = 0.0, .step_rad = kPi / 360.0};
-  const auto cut = std::make_unique<Cut>(room, seen_free_all_over(), fan);
+  const Cut cut = cut_on_free(room, fan);
   REQUIRE(cut->detections.size() == 2);  // the wall is as wide as a body may be
   const Detection& half = cut->detections[0].centre_in_map.y > 0.0 ? cut->detections[0] : cut->detections[1];
   CHECK(half.low_end == End::kHidden);
@@ -302,28 +260,17 @@ TEST_CASE("where a scan all round begins, sides and what hides them are told bey
 TEST_CASE("a circular room without a jump is one wall, and no body though its ends meet") {
   const auto scan = std::make_unique<LaserScan>(scan_of({}, {}, 1, 0.0, {.beams = 720, .step_rad = kPi / 360.0}));
   for (std::size_t b = 0; b < scan->beam_count; ++b) scan->range_m[b] = 3.0F;
-  const auto points = std::make_unique<ScanPoints>();
-  ScanProjection().project(*scan, {}, {}, *points);
-  begin_at_a_jump(sweep_of(*scan), *points);
-  CHECK((*points)[0].beam == 0);
-  const auto segments = std::make_unique<Segments>();
-  cut_at_jumps(*points, sweep_of(*scan), *segments);
-  CHECK(segments->size() == 1);
-  const auto in_map = std::make_unique<PointsInMap>();
-  for (std::size_t k = 0; k < points->size(); ++k) in_map->position[k] = (*points)[k].in_robot;
-  in_map->ground.fill(Ground::kFree);
-  const auto detections = std::make_unique<Detections>();
-  find_detections(*points, *in_map, *segments, sweep_of(*scan), {}, *detections);
-  CHECK(detections->empty());
+  const auto cut = std::make_unique<CutScan>(*scan);
+  cut->find();
+  CHECK(cut->points[0].beam == 0);
+  CHECK(cut->segments.size() == 1);
+  CHECK(cut->detections.empty());
 }
 
 TEST_CASE("a scan of which every beam is a piece of its own is taken apart to its end") {
   const auto scan = std::make_unique<LaserScan>(scan_of({}, {}, 1, 0.0, {.beams = 2048, .step_rad = kPi / 1100.0}));
   for (std::size_t b = 0; b < scan->beam_count; ++b) scan->range_m[b] = b % 2 == 0 ? 1.0F : 3.0F;
-  const auto points = std::make_unique<ScanPoints>();
-  ScanProjection().project(*scan, {}, {}, *points);
-  const auto segments = std::make_unique<Segments>();
-  cut_at_jumps(*points, sweep_of(*scan), *segments);
-  CHECK(segments->size() == 2048);
-  CHECK(segments->back().last == 2047);
+  const auto cut = std::make_unique<CutScan>(*scan);
+  CHECK(cut->segments.size() == 2048);
+  CHECK(cut->segments.back().last == 2047);
 }

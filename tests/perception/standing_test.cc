@@ -60,8 +60,7 @@ TEST_CASE("who stands on two legs may be a pedestrian, as wide as people, for as
 }
 
 TEST_CASE("who is hidden where he stood stands for eight seconds yet, and no longer than his place is out of sight") {
-  Watch watch;
-  watch.look_round();
+  SettledWatch watch;
   for (int scan = 0; scan < 15; ++scan) watch.see(with_legs(kPlace));
   REQUIRE(watch.tracker.standing().size() == 1);
   Room screened = with_legs(kPlace);
@@ -84,8 +83,7 @@ TEST_CASE("who is hidden where he stood stands for eight seconds yet, and no lon
 }
 
 TEST_CASE("who walked, stops, and goes out of what the laser looks at stands there for eight seconds yet") {
-  Watch watch;
-  watch.look_round();
+  SettledWatch watch;
   for (int scan = 0; scan < 60; ++scan) watch.see(with({{{2.0, -2.0 + 0.05 * scan}, 0.27}}));
   for (int scan = 0; scan < 8; ++scan) watch.see(with({{{2.0, 1.0}, 0.27}}));  // half a second: he is no stander yet
   REQUIRE(watch.tracker.moving().size() == 1);
@@ -100,8 +98,7 @@ TEST_CASE("who walked, stops, and goes out of what the laser looks at stands the
 }
 
 TEST_CASE("one leg that stands where nothing stood may be a pedestrian's") {
-  Watch watch;
-  watch.look_round();
+  SettledWatch watch;
   for (int scan = 0; scan < 15; ++scan) watch.see(with({{kPlace, 0.06}}));
   REQUIRE(watch.tracker.standing().size() == 1);
   CHECK(distance(watch.tracker.standing()[0].position_in_map, kPlace) < 0.2);
@@ -176,8 +173,7 @@ TEST_CASE("a rider's feet are nobody beside the robot once it has turned") {
 }
 
 TEST_CASE("who walked here stands when he has stopped, no legs of his having been seen") {
-  Watch watch;
-  watch.look_round();
+  SettledWatch watch;
   for (int scan = 0; scan < 60; ++scan) watch.see(with({{{3.0, -2.0 + 0.05 * scan}, 0.27}}));
   CHECK(watch.tracker.standing().empty());
   for (int scan = 0; scan < 15 * 8; ++scan) watch.see(with({{{3.0, 1.0}, 0.27}}));
@@ -186,8 +182,7 @@ TEST_CASE("who walked here stands when he has stopped, no legs of his having bee
 }
 
 TEST_CASE("who goes along beside the robot, as nobody else, may be a pedestrian") {
-  Watch watch;
-  watch.look_round();
+  SettledWatch watch;
   int unknown = 0;
   for (int k = 0; k < 90; ++k) {
     const Pose2 robot{-3.0 + 0.05 * k, 0.0, 0.0};

@@ -112,7 +112,7 @@ TEST_CASE("who grows as he goes must go twice as far") {
     for (int k = 1; k <= 10; ++k)
       target.onset.positions.add(time_from_seconds(0.1 * k),
                                  {.where_in_map = {3.0, 0.02 * k}, .width_m = 0.4 + by_m / 9.0 * k, .whole = true});
-    return steady(target.motion(), target.onset.positions.fit());
+    return steady(target, target.onset.positions.fit());
   };
   CHECK(walks_growing(0.08));
   CHECK_FALSE(walks_growing(0.1));

@@ -40,11 +40,7 @@ struct Eyes {
   }
 };
 
-Room with_disc(Vec2 centre) {
-  Room room = rectangle(12.0, 10.0);
-  room.discs = {{centre, 0.27}};
-  return room;
-}
+Room with_disc(Vec2 centre) { return with({{centre, 0.27}}); }
 
 /// Where a walker is that passes the robot from ahead to behind at 1.2 m/s.
 Vec2 passing(double t_s) { return {4.0 - 1.2 * t_s, 1.6}; }

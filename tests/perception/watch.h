@@ -1,7 +1,6 @@
 #pragma once
 // A tracker that looks at a room of 12 m x 10 m, scan after scan of a 15 Hz laser.
 #include <algorithm>
-#include <initializer_list>
 #include <limits>
 
 #include "planner/tracking/tracker.h"
@@ -23,10 +22,8 @@ struct Watch {
   }
   /// Somebody in the empty room who is dark all over: his beams return nothing.
   void see_dark(const Disc& disc) {
-    Room room = rectangle(12.0, 10.0);
-    const LaserScan empty = scan_of(room, {}, ++scan, kNoiseM, fan);
-    room.discs = {disc};
-    LaserScan seen = scan_of(room, {}, scan, kNoiseM, fan);
+    const LaserScan empty = scan_of(with({}), {}, ++scan, kNoiseM, fan);
+    LaserScan seen = scan_of(with({disc}), {}, scan, kNoiseM, fan);
     for (std::size_t k = 0; k < seen.beam_count; ++k) {
       if (seen.range_m[k] != empty.range_m[k]) seen.range_m[k] = std::numeric_limits<float>::quiet_NaN();
     }
@@ -34,14 +31,22 @@ struct Watch {
   }
   /// Looks at an empty 12 m x 10 m room for two seconds.
   void look_round() {
-    for (int k = 0; k < 30; ++k) see(rectangle(12.0, 10.0));
+    for (int k = 0; k < 30; ++k) see(with({}));
   }
 };
 
-inline Room with(std::initializer_list<Disc> discs) {
-  Room room = rectangle(12.0, 10.0);
-  room.discs = discs;
-  return room;
+/// One that knows the empty room.
+struct SettledWatch : Watch {
+  SettledWatch() { look_round(); }
+};
+
+/// Of the cells from `low` up to but not `beyond`.
+inline int occupied_cells(const EvidenceMap& map, CellIndex low, CellIndex beyond) {
+  int count = 0;
+  for (int j = low.j; j < beyond.j; ++j) {
+    for (int i = low.i; i < beyond.i; ++i) count += map.occupied({i, j}) ? 1 : 0;
+  }
+  return count;
 }
 
 }  // namespace jaywalk::test

@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <vector>
 
-#include "planner/paper/paper.h"
+#include "tests/planner/one_plan.h"
 #include "tests/planner/test_maps.h"
 #include "tests/support/allocation_guard.h"
 #include "tests/support/catch.h"
@@ -57,19 +57,12 @@ long page_faults() {
   return usage.ru_minflt + usage.ru_majflt;
 }
 
-/// `is_paper`: the paper's planner, else the robot's.
-std::unique_ptr<Planner> growing(bool is_paper) {
-  paper::PaperConfig config;
-  config.max_side_cells = 512;
-  return is_paper ? paper::make_cpu_paper_planner(config) : make_cpu_planner(config);
-}
-
 }  // namespace
 
 TEST_CASE("submit and collect allocate nothing, whatever comes of them") {
   const bool is_paper = GENERATE(false, true);
-  drive(*growing(is_paper));  // maps and tracks are made
-  const auto planner = growing(is_paper);
+  drive(*test::planner_of(is_paper, 512));  // maps and tracks are made
+  const auto planner = test::planner_of(is_paper, 512);
   const AllocationGuard guard;
   drive(*planner);
   const auto calls = guard.calls();
@@ -82,8 +75,8 @@ TEST_CASE("submit and collect meet no page that was not there: all memory is tou
     return;
   }
   const bool is_paper = GENERATE(false, true);
-  drive(*growing(is_paper));  // the code's own pages, and the stack's
-  const auto planner = growing(is_paper);
+  drive(*test::planner_of(is_paper, 512));  // the code's own pages, and the stack's
+  const auto planner = test::planner_of(is_paper, 512);
   const long before = page_faults();
   drive(*planner);
   CHECK(page_faults() == before);

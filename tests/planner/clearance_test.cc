@@ -45,13 +45,3 @@ TEST_CASE("clearance is the exact Euclidean distance less the inflation, on rand
     CHECK(wrong == 0);
   }
 }
-
-TEST_CASE("beside a straight wall the free cells count 1, 2, 3") {
-  TestMap map("wall", 64);
-  FieldRig<> rig(64);
-  rig.load(map, 3.0F, 0);  // the border's cells are wall: cells 1, 2, 3 are inflation
-  CHECK(rig.arrays().clearance[rig.grid.at(3, 32)] == 0.0F);
-  CHECK(rig.arrays().clearance[rig.grid.at(4, 32)] == 1.0F);
-  CHECK(rig.arrays().clearance[rig.grid.at(5, 32)] == 2.0F);
-  CHECK(rig.arrays().clearance[rig.grid.at(6, 32)] == 3.0F);
-}

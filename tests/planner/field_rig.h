@@ -28,6 +28,15 @@ struct FieldRig {
     (void)pass.start(grid, goal);
   }
 
+  /// Solves so many times: from nothing, and then from the last.
+  paper::FieldQuality solve(std::int32_t goal, int times = 1) {
+    paper::FieldQuality quality = pass.solve(grid, goal, paper::From::kNothing);
+    for (int k = 1; k < times; ++k) quality = pass.solve(grid, goal, paper::From::kLast);
+    return quality;
+  }
+  [[nodiscard]] double share_of_best(std::int32_t goal) const {
+    return paper::share_of_best(grid, psi(), exact(goal), goal);
+  }
   /// The exact field of the free cells.
   [[nodiscard]] std::vector<double> exact(std::int32_t goal) const {
     std::vector<std::uint8_t> free(static_cast<std::size_t>(grid.cells()));

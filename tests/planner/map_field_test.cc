@@ -13,6 +13,7 @@
 #include "tests/planner/field_rig.h"
 #include "tests/planner/shaped_maps.h"
 #include "tests/planner/shuffled_executor.h"
+#include "tests/recording/recordings.h"
 #include "tests/support/catch.h"
 
 using namespace jaywalk;
@@ -22,8 +23,8 @@ namespace {
 
 /// Between 1 and `most` cells a side, boxes and single cells thrown in.
 paper::CellMap random_map(Random& random, std::int32_t most) {
-  paper::CellMap map{1 + random.below(most), 1 + random.below(most), {}};
-  map.wall.assign(static_cast<std::size_t>(map.width * map.height), 0);
+  const std::int32_t width = 1 + random.below(most), height = 1 + random.below(most);
+  paper::CellMap map = filled_map(width, height);
   const std::int32_t pieces = random.below(1 + map.width * map.height / 100), longest = 1 + random.below(20);
   for (std::int32_t k = 0; k < pieces; ++k) {
     const std::int32_t i0 = random.below(map.width), j0 = random.below(map.height);
@@ -37,15 +38,10 @@ paper::CellMap random_map(Random& random, std::int32_t most) {
   return map;
 }
 
-std::filesystem::path data_folder() {
-  const char* told = std::getenv("JAYWALK_DATA");
-  return told != nullptr ? std::filesystem::path(told) : std::filesystem::path(JAYWALK_DATA_DEFAULT);
-}
-
 /// Cells of 5 cm that a cylinder (x y radius a line) covers with their middle.
 paper::CellMap barn_map(const std::filesystem::path& file) {
   constexpr double kCell = 0.05;
-  paper::CellMap map{110, 220, std::vector<std::uint8_t>(110 * 220, 0)};
+  paper::CellMap map = filled_map(110, 220);
   std::ifstream in(file);
   for (std::string line; std::getline(in, line);) {
     std::istringstream words(line);
@@ -103,25 +99,22 @@ TEST_CASE("maps of every shape have the same bytes in any visiting order") {
 
 TEST_CASE("a single cell, a row and a column of cells are solved, and a map of walls has no goal") {
   for (const CellIndex size : {CellIndex{1, 1}, CellIndex{1, 65}, CellIndex{130, 1}}) {
-    const auto field = paper::make_cpu_map_field(
-        {size.i, size.j, std::vector<std::uint8_t>(static_cast<std::size_t>(size.i * size.j), 0)});
+    const auto field = paper::make_cpu_map_field(filled_map(size.i, size.j));
     const paper::MapQuality quality = field->solve_cold({0, 0});
     CHECK(quality.certified);
     CHECK(quality.joined == size.i * size.j);
     CHECK(field->psi(0, 0) == 0.0F);
   }
-  const auto walls = paper::make_cpu_map_field({3, 2, std::vector<std::uint8_t>(6, 1)});
+  const auto walls = paper::make_cpu_map_field(filled_map(3, 2, 1));
   CellIndex goal{1, 1};
   CHECK_FALSE(walls->nearest_free(goal, 10));
 }
 
 TEST_CASE("on the BARN worlds descent arrives from every joined cell") {
-  if (!std::filesystem::is_directory(data_folder() / "barn")) {
-    std::printf("skipped: no data\n");
-    return;
-  }
+  const auto folder = recording("barn");
+  if (!folder) return;
   int worlds = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(data_folder() / "barn")) {
+  for (const auto& entry : std::filesystem::directory_iterator(*folder)) {
     if (entry.path().extension() != ".txt") continue;
     const auto field = paper::make_cpu_map_field(barn_map(entry.path()));
     field->inflate(4.0F);
@@ -162,7 +155,7 @@ TEST_CASE("in 120 ticks with eight discs that open and close passages fields are
     CHECK(quality.certified);
     CHECK(quality.joined > 8000);
     if (tick % measured_every != 0) continue;  // the exact field takes a second
-    worst = std::min(worst, paper::share_of_best(rig.grid, rig.psi(), rig.exact(goal), goal));
+    worst = std::min(worst, rig.share_of_best(goal));
   }
   std::printf("120 ticks: %.3f %% pick the best neighbour, at worst\n", 100.0 * worst);
   CHECK(worst >= 0.98);

@@ -12,15 +12,13 @@ namespace {
 struct MarkRig {
   Grid grid{64};
   SerialExecutor executor;
-  std::vector<float> warp = std::vector<float>(64 * 64);
   std::vector<std::uint8_t> occupants = std::vector<std::uint8_t>(64 * 64);
   Mark mark{};
 
   /// The robot stands in cell (10, 32) and looks along x.
   void run(const Mover& mover) {
     const Warping warping{10.5F, 32.5F, 1.0F, 0.0F, 5.0F, 2.0F, 4.0F, 0.0F};
-    executor.for_each_cell(64, 64, WarpOfEachCell{grid, warping, warp.data()});
-    executor.for_each_cell(1, 1, PredictEachMover{grid, warping, warp.data(), &mover, &mark});
+    executor.for_each_cell(1, 1, PredictEachMover{grid, warping, &mover, &mark});
     executor.for_each_cell(64, 64, MarkEachCell{grid, &mark, 1, occupants.data()});
   }
   [[nodiscard]] bool marked(std::int32_t i, std::int32_t j) const {

@@ -48,10 +48,8 @@ int computed(const FieldRig<Visitor>& rig, const float* psi) {
 
 TEST_CASE("psi of a cell that is not free is handed on and never computed, cold, warm and by the start field alone") {
   FieldRig<Visitor> rig(64);
-  TestMap map("rooms", 64);
-  map.box(20, 0, 22, 44), map.box(42, 20, 44, 64), map.box(42, 8, 54, 10);
   const std::int32_t goal = rig.grid.at(55, 50);
-  rig.load(map, 1.0F, goal);
+  rig.load(rooms(), 1.0F, goal);
   for (std::int32_t c = 0; c < rig.grid.cells(); ++c) {
     if (rig.arrays().clearance[c] <= 0.0F) std::memcpy(rig.arrays().start_psi + c, &kSignalling, sizeof kSignalling);
   }

@@ -1,13 +1,22 @@
 #pragma once
 // A planner of little memory, asked for a plan.
+#include <memory>
+
 #include "planner/paper/paper.h"
 
 namespace jaywalk::test {
 
-inline paper::PaperConfig small_memory() {
+/// The paper's planner, or the robot's.
+inline std::unique_ptr<Planner> planner_of(bool is_paper, std::int32_t max_side_cells = 256) {
   paper::PaperConfig config;
-  config.max_side_cells = 256;
-  return config;
+  config.max_side_cells = max_side_cells;
+  return is_paper ? paper::make_cpu_paper_planner(config) : make_cpu_planner(config);
+}
+
+inline double length_of(const Path& path) {
+  double sum = 0.0;
+  for (std::size_t k = 1; k < path.size(); ++k) sum += distance(path[k - 1], path[k]);
+  return sum;
 }
 
 inline PlanRequest request_on(const EvidenceMap& map, Vec2 from, Vec2 to) {

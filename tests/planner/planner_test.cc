@@ -1,5 +1,4 @@
-// The paper's planner: window, start, goal, path.
-
+// The paper's planner, and what the robot's has in common with it: window, start, goal, path.
 #include <cmath>
 #include <limits>
 #include <string>
@@ -16,12 +15,6 @@ using namespace jaywalk::test;
 
 namespace {
 
-double length_of(const Path& path) {
-  double sum = 0.0;
-  for (std::size_t k = 1; k < path.size(); ++k) sum += distance(path[k - 1], path[k]);
-  return sum;
-}
-
 /// Least distance from the path to the middle of any wall cell, in metres.
 double nearest_wall(const Path& path, const TestMap& map) {
   double best = 1e9;
@@ -37,7 +30,7 @@ double nearest_wall(const Path& path, const TestMap& map) {
 }  // namespace
 
 TEST_CASE("a plan leads from the robot to the goal round the walls, smoothly, with points 0.05 to 0.2 m apart") {
-  const auto planner = paper::make_cpu_paper_planner(small_memory());
+  const auto planner = planner_of(true);
   for (const TestMap& map : {open_room(), office(), clutter(21), clutter(22), speckle(23)}) {
     const EvidenceMap evidence = evidence_of(map);
     const Vec2 from{1.07, 1.04}, to{24.31, 24.28};
@@ -63,7 +56,7 @@ TEST_CASE("a plan leads from the robot to the goal round the walls, smoothly, wi
 
 TEST_CASE("corridors 1.5 m and 1 m wide are followed to the end") {
   // 1 m less 0.3 m on either side leaves four free cells.
-  const auto planner = paper::make_cpu_paper_planner(small_memory());
+  const auto planner = planner_of(true);
   for (const std::int32_t corridor : {15, 10}) {
     const TestMap map = serpentine(corridor);
     const EvidenceMap evidence = evidence_of(map);
@@ -77,8 +70,7 @@ TEST_CASE("corridors 1.5 m and 1 m wide are followed to the end") {
 }
 
 TEST_CASE("collect answers with the last submission, and with none before the first") {
-  const auto planner =
-      GENERATE(false, true) ? paper::make_cpu_paper_planner(small_memory()) : make_cpu_planner(small_memory());
+  const auto planner = planner_of(GENERATE(false, true));
   const EvidenceMap map = evidence_of(open_room());
   CHECK(planner->collect().status == PlanStatus::kNone);
   CHECK(planner->collect().sequence == 0);
@@ -94,10 +86,9 @@ TEST_CASE("collect answers with the last submission, and with none before the fi
 }
 
 TEST_CASE("the field view shows 0 at the goal, NaN in walls, infinity where the goal cannot be reached") {
-  const auto planner = paper::make_cpu_paper_planner(small_memory());
+  const auto planner = planner_of(true);
   TestMap map = open_room();
-  map.box(100, 100, 160, 102), map.box(100, 158, 160, 160), map.box(100, 100, 102, 160), map.box(158, 100, 160, 160);
-  const EvidenceMap evidence = evidence_of(map);
+  const EvidenceMap evidence = evidence_of(map.frame(100, 160));
   REQUIRE(plan_of(*planner, request_on(evidence, {2.0, 2.0}, {23.0, 23.0})).status == PlanStatus::kOk);
   const FieldView view = planner->view_field();
   CHECK(view.width == 256);
@@ -112,8 +103,8 @@ TEST_CASE("the field view shows 0 at the goal, NaN in walls, infinity where the 
   CHECK(std::isinf(psi({13.05, 13.05})));
 }
 
-TEST_CASE("a robot inside inflation starts from the nearest free cell, one deep in a wall is blocked") {
-  const auto planner = paper::make_cpu_paper_planner(small_memory());
+TEST_CASE("a robot by a wall starts from the nearest free cell, one deep in it is blocked, a goal there has no path") {
+  const auto planner = planner_of(GENERATE(false, true));
   TestMap map = open_room();
   map.box(100, 100, 140, 140);
   const EvidenceMap evidence = evidence_of(map);
@@ -122,25 +113,24 @@ TEST_CASE("a robot inside inflation starts from the nearest free cell, one deep 
   CHECK(near_wall.path[0] == Vec2{9.9, 12.0});
   CHECK(plan_of(*planner, request_on(evidence, {12.0, 12.0}, {2.0, 12.0})).status == PlanStatus::kRobotBlocked);
   CHECK(planner->collect().path.empty());
+  CHECK(plan_of(*planner, request_on(evidence, {2.0, 12.0}, {12.0, 12.0})).status == PlanStatus::kNoPath);
 }
 
-TEST_CASE("a goal in inflation is replaced by the nearest cell, one deep in a wall has no path") {
-  const auto planner = paper::make_cpu_paper_planner(small_memory());
+TEST_CASE("a goal in inflation is replaced by the nearest cell") {
+  const auto planner = planner_of(true);
   TestMap map = open_room();
   map.box(100, 100, 140, 140);
   const EvidenceMap evidence = evidence_of(map);
   const Plan& plan = plan_of(*planner, request_on(evidence, {2.0, 12.0}, {9.9, 12.0}));
   REQUIRE(plan.status == PlanStatus::kOk);
   CHECK(distance(plan.path.back(), {9.9, 12.0}) < 0.5);
-  CHECK(plan_of(*planner, request_on(evidence, {2.0, 12.0}, {12.0, 12.0})).status == PlanStatus::kNoPath);
 }
 
 TEST_CASE("an enclosed goal has no path, and no old one is passed off as new") {
-  const auto planner = paper::make_cpu_paper_planner(small_memory());
+  const auto planner = planner_of(true);
   TestMap map = open_room();
   const EvidenceMap before = evidence_of(map);
-  map.box(180, 180, 220, 182), map.box(180, 218, 220, 220), map.box(180, 180, 182, 220), map.box(218, 180, 220, 220);
-  const EvidenceMap after = evidence_of(map);
+  const EvidenceMap after = evidence_of(map.frame(180, 220));
   CHECK(plan_of(*planner, request_on(before, {2.0, 2.0}, {20.0, 20.0})).status == PlanStatus::kOk);
   const Plan& plan = plan_of(*planner, request_on(after, {2.0, 2.0}, {20.0, 20.0}));
   CHECK(plan.status == PlanStatus::kNoPath);
@@ -149,8 +139,7 @@ TEST_CASE("an enclosed goal has no path, and no old one is passed off as new") {
 }
 
 TEST_CASE("a pose, goal or speed that is no number is a bad request, and the next good one works") {
-  const auto planner =
-      GENERATE(false, true) ? paper::make_cpu_paper_planner(small_memory()) : make_cpu_planner(small_memory());
+  const auto planner = planner_of(GENERATE(false, true));
   const EvidenceMap map = evidence_of(open_room());
   const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
   CHECK(plan_of(*planner, request_on(map, {nan, 2.0}, {20.0, 20.0})).status == PlanStatus::kBadRequest);
@@ -162,7 +151,7 @@ TEST_CASE("a pose, goal or speed that is no number is a bad request, and the nex
 }
 
 TEST_CASE("enormous but finite goals do no harm, nor do movers and standers that are no numbers or beyond reason") {
-  const auto planner = paper::make_cpu_paper_planner(small_memory());
+  const auto planner = planner_of(true);
   const EvidenceMap map(256, 0.1, {0.0, 0.0});
   Track far = walker({1e200, -1e200}, {1e200, 0.0});
   Track broken = walker({1.0, std::numeric_limits<double>::quiet_NaN()}, {0.0, 0.0});
@@ -179,7 +168,7 @@ TEST_CASE("enormous but finite goals do no harm, nor do movers and standers that
 }
 
 TEST_CASE("without a map all is free") {
-  const auto planner = paper::make_cpu_paper_planner(small_memory());
+  const auto planner = planner_of(true);
   const EvidenceMap unused(64, 0.1, {0.0, 0.0});
   PlanRequest request = request_on(unused, {0.0, 0.0}, {5.0, 3.0});
   request.still = nullptr;
@@ -189,24 +178,23 @@ TEST_CASE("without a map all is free") {
 }
 
 TEST_CASE("a goal outside the window is approached by its border, and a robot at its goal has a path of its own") {
-  const auto planner = paper::make_cpu_paper_planner(small_memory());
+  const bool is_paper = GENERATE(false, true);
+  const auto planner = planner_of(is_paper);
   const EvidenceMap map(1024, 0.1, {0.0, 0.0});
   const Plan& plan = plan_of(*planner, request_on(map, {0.0, 0.0}, {60.0, 0.0}));
   REQUIRE(plan.status == PlanStatus::kOk);
   CHECK(plan.path.back().x > 15.0);
-  CHECK(std::fabs(plan.path.back().y) < 0.2);
+  CHECK(std::fabs(plan.path.back().y) < (is_paper ? 0.2 : 0.5));
   const Plan& there = plan_of(*planner, request_on(map, {3.0, 3.0}, {3.0, 3.0}));
   CHECK(there.status == PlanStatus::kOk);
   CHECK(there.path.back() == Vec2{3.0, 3.0});
 }
 
 TEST_CASE("a way round outside the window is found after a second: the window doubles") {
-  // A wall 28 m long across the 25.6 m window between start and goal; its ends are outside.
+  // A wall 31 m long across the 25.6 m window between start and goal; its ends are outside.
   EvidenceMap map(1024, 0.1, {12.8, 12.8});
   for (std::int32_t j = -20; j < 290; ++j) map.add({128, j}, EvidenceMap::kMax), map.add({129, j}, EvidenceMap::kMax);
-  paper::PaperConfig config;
-  config.max_side_cells = 512;
-  const auto planner = paper::make_cpu_paper_planner(config);
+  const auto planner = planner_of(GENERATE(false, true), 512);
   const PlanRequest request = request_on(map, {8.0, 12.8}, {17.6, 12.8});
   for (int k = 0; k < field::kPatience; ++k) CHECK(plan_of(*planner, request).status == PlanStatus::kNoPath);
   const Plan& plan = plan_of(*planner, request);
@@ -216,12 +204,8 @@ TEST_CASE("a way round outside the window is found after a second: the window do
 }
 
 TEST_CASE("a robot walled in with no way out keeps its window: a bigger one would not help") {
-  TestMap map = open_room();
-  map.box(20, 20, 80, 22), map.box(20, 78, 80, 80), map.box(20, 20, 22, 80), map.box(78, 20, 80, 80);
-  const EvidenceMap evidence = evidence_of(map);
-  paper::PaperConfig config;
-  config.max_side_cells = 512;
-  const auto planner = paper::make_cpu_paper_planner(config);
+  const EvidenceMap evidence = evidence_of(open_room().frame(20, 80));
+  const auto planner = planner_of(GENERATE(false, true), 512);
   for (int k = 0; k < 2 * field::kPatience; ++k) {
     CHECK(plan_of(*planner, request_on(evidence, {5.0, 5.0}, {20.0, 20.0})).status == PlanStatus::kNoPath);
   }
@@ -229,22 +213,18 @@ TEST_CASE("a robot walled in with no way out keeps its window: a bigger one woul
 }
 
 TEST_CASE("configurations that make no sense are refused") {
-  paper::PaperConfig config;
-  config.side_cells = 300;
-  CHECK_THROWS_AS(paper::make_cpu_paper_planner(config), StartupError);
-  config = {};
-  config.max_side_cells = 128;
-  CHECK_THROWS_AS(paper::make_cpu_paper_planner(config), StartupError);
-  CHECK_THROWS_AS(make_cpu_planner(config), StartupError);
-  config = {};
-  config.inflation_m = std::numeric_limits<double>::quiet_NaN();
-  CHECK_THROWS_AS(paper::make_cpu_paper_planner(config), StartupError);
-  config = {};
-  config.horizon_cap_s = 0.0;
-  CHECK_THROWS_AS(paper::make_cpu_paper_planner(config), StartupError);
-  config = {};
-  config.cell_m = 0.0;
-  CHECK_THROWS_AS(paper::make_cpu_paper_planner(config), StartupError);
+  const auto refused = [](const auto& change) {
+    paper::PaperConfig config;
+    change(config);
+    CHECK_THROWS_AS(paper::make_cpu_paper_planner(config), StartupError);
+    return config;
+  };
+  refused([](auto& config) { config.side_cells = 300; });
+  refused([](auto& config) { config.inflation_m = std::numeric_limits<double>::quiet_NaN(); });
+  refused([](auto& config) { config.horizon_cap_s = 0.0; });
+  refused([](auto& config) { config.cell_m = 0.0; });
+  const PlannerConfig small = refused([](auto& config) { config.max_side_cells = 128; });
+  CHECK_THROWS_AS(make_cpu_planner(small), StartupError);
 }
 
 TEST_CASE("every status has a name of its own") {

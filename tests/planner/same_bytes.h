@@ -1,11 +1,11 @@
 #pragma once
-// One executor against the serial one, byte by byte.
+// The plans of one planner against those of the serial CPU, byte by byte.
 #include <cstring>
-#include <memory>
+#include <functional>
 #include <vector>
 
+#include "planner/cost_to_go/planner.h"
 #include "planner/paper/paper.h"
-#include "planner/paper/paper_planner.h"
 #include "tests/planner/test_maps.h"
 #include "tests/support/catch.h"
 
@@ -50,32 +50,55 @@ inline PlanRequest across(const EvidenceMap& still) {
   return request;
 }
 
-/// Marks and whole plans among walkers, on a map of 64 cells a side that can be crossed.
-template <class Executor>
-void check_plans(const TestMap& walls, int ticks) {
+/// Both plan `request`. Whether there was a path.
+inline bool check_plan(Planner& cpu, Planner& other, const PlanRequest& request) {
+  other.submit(request);
+  cpu.submit(request);
+  const Plan& a = cpu.collect();
+  const Plan& b = other.collect();
+  REQUIRE(a.status == b.status);
+  REQUIRE(a.path.size() == b.path.size());
+  CHECK(a.cycles == b.cycles);
+  CHECK(a.certified == b.certified);
+  CHECK(same(a.path.data(), b.path.data(), static_cast<std::int32_t>(a.path.size())));
+  REQUIRE(a.predictions.size() == b.predictions.size());
+  for (std::size_t k = 0; k < a.predictions.size(); ++k) {
+    CHECK(same(&a.predictions[k].position_in_map, &b.predictions[k].position_in_map, 1));
+  }
+  const auto psi_a = cpu.view_field().psi, psi_b = other.view_field().psi;
+  REQUIRE(psi_a.size() == psi_b.size());
+  CHECK(same(psi_a.data(), psi_b.data(), static_cast<std::int32_t>(psi_a.size())));
+  return a.status == PlanStatus::kOk;
+}
+
+/// Both plan in a window of 6.4 m among six walkers; `look` after each plan.
+inline void check_crowd(
+    Planner& cpu, Planner& other, const TestMap& walls, int ticks, const std::function<void()>& look = [] {}) {
   const EvidenceMap map = evidence_of(walls);
-  paper::PaperPlanner<paper::SerialExecutor> serial(small_window(), std::make_unique<paper::SerialExecutor>());
-  paper::PaperPlanner<Executor> other(small_window(), std::make_unique<Executor>());
   std::vector<Track> tracks = crowd();
   PlanRequest request = across(map);
   int planned = 0;
   for (int tick = 0; tick < ticks; ++tick) {
     for (Track& track : tracks) track.position_in_map = track.position_in_map + track.velocity_in_map * 0.066;
     request.moving = tracks;
-    serial.submit(request);
-    other.submit(request);
-    const Plan& a = serial.collect();
-    const Plan& b = other.collect();
-    REQUIRE(a.status == b.status);
-    REQUIRE(a.path.size() == b.path.size());
-    CHECK(a.cycles == b.cycles);
-    CHECK(same(serial.arrays().marks, other.arrays().marks, 6));
-    CHECK(same(serial.arrays().occupants, other.arrays().occupants, 64 * 64));
-    CHECK(same(a.path.data(), b.path.data(), static_cast<std::int32_t>(a.path.size())));
-    CHECK(same(serial.view_field().psi.data(), other.view_field().psi.data(), 64 * 64));
-    if (a.status == PlanStatus::kOk) ++planned;
+    planned += check_plan(cpu, other, request) ? 1 : 0;
+    look();
   }
   CHECK(planned > 0);
+}
+
+/// A robot that sets out from one corner of a map for the other.
+inline void check_run(Planner& cpu, Planner& other, const TestMap& map, int ticks) {
+  const EvidenceMap evidence = evidence_of(map);
+  PlanRequest request;
+  request.map_from_robot = {1.07, 0.65, 0.4};
+  request.goal_in_map = {0.1 * map.side - 1.29, 0.1 * map.side - 1.32};
+  request.speed_mps = 0.6;
+  request.still = &evidence;
+  for (int tick = 0; tick < ticks; ++tick) {
+    request.map_from_robot.x += 0.04;
+    check_plan(cpu, other, request);
+  }
 }
 
 }  // namespace jaywalk::test

@@ -42,7 +42,20 @@ struct TestMap {
       for (std::int32_t i = i0 < 0 ? 0 : i0; i < i1 && i < side; ++i) at(i, j) = value;
     }
   }
+  /// Walls two cells thick about [low, high) x [low, high), within it.
+  TestMap& frame(std::int32_t low, std::int32_t high) {
+    box(low, low, high, low + 2), box(low, high - 2, high, high);
+    box(low, low, low + 2, high), box(high - 2, low, high, high);
+    return *this;
+  }
 };
+
+/// Three rooms of 6.4 m, doors between them, and a shelf in the third.
+inline TestMap rooms() {
+  TestMap map("rooms", 64);
+  map.box(20, 0, 22, 44), map.box(42, 20, 44, 64), map.box(42, 8, 54, 10);
+  return map;
+}
 
 inline TestMap open_room() { return {"open", 256}; }
 

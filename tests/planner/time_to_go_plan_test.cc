@@ -3,7 +3,6 @@
 #include <cmath>
 #include <vector>
 
-#include "planner/mapping/window.h"
 #include "tests/planner/one_plan.h"
 #include "tests/planner/test_maps.h"
 #include "tests/support/catch.h"
@@ -12,12 +11,6 @@ using namespace jaywalk;
 using namespace jaywalk::test;
 
 namespace {
-
-double length_of(const Path& path) {
-  double sum = 0.0;
-  for (std::size_t k = 1; k < path.size(); ++k) sum += distance(path[k - 1], path[k]);
-  return sum;
-}
 
 /// Whether cells of the view that are free join two places, by their eight neighbours.
 bool are_joined(const FieldView& view, Vec2 from, Vec2 to) {
@@ -40,16 +33,10 @@ bool are_joined(const FieldView& view, Vec2 from, Vec2 to) {
   return seen[at(cell(to))];
 }
 
-TestMap walled_in(TestMap map, std::int32_t low, std::int32_t high) {
-  map.box(low, low, high, low + 2), map.box(low, high - 2, high, high);
-  map.box(low, low, low + 2, high), map.box(high - 2, low, high, high);
-  return map;
-}
-
 }  // namespace
 
 TEST_CASE("what drives knows neither potential nor marks, the paper's plan has both, and the same time to go") {
-  const auto planner = make_cpu_planner(small_memory()), papers = paper::make_cpu_paper_planner(small_memory());
+  const auto planner = planner_of(false), papers = planner_of(true);
   const EvidenceMap map = evidence_of(office());
   PlanRequest request = request_on(map, {1.07, 1.04}, {24.31, 24.28});
   const std::array walkers{walker({5.0, 5.0}, {0.4, 0.0})};
@@ -71,7 +58,7 @@ TEST_CASE("what drives knows neither potential nor marks, the paper's plan has b
 }
 
 TEST_CASE("the path down the time to go leads from robot to goal, 0.2 m from walls, with points 0.1 m apart") {
-  const auto planner = make_cpu_planner(small_memory());
+  const auto planner = planner_of(false);
   for (const TestMap& map : {open_room(), office(), clutter(21), clutter(22), speckle(23)}) {
     const EvidenceMap evidence = evidence_of(map);
     const Vec2 from{1.07, 1.04}, to{24.31, 24.28};
@@ -89,7 +76,7 @@ TEST_CASE("the path down the time to go leads from robot to goal, 0.2 m from wal
 }
 
 TEST_CASE("on open ground the path is straight within three per cent, whatever its direction") {
-  const auto planner = make_cpu_planner(small_memory());
+  const auto planner = planner_of(false);
   const EvidenceMap map(512, 0.1, {0.0, 0.0});
   for (const double rad : {0.0, 0.2, 0.5, 0.8, 1.3, 2.0, -2.9}) {
     const Vec2 to = direction(rad) * 8.0;
@@ -98,7 +85,7 @@ TEST_CASE("on open ground the path is straight within three per cent, whatever i
 }
 
 TEST_CASE("there is a path exactly where free cells join robot and goal") {
-  const auto planner = make_cpu_planner(small_memory());
+  const auto planner = planner_of(false);
   int joined = 0, apart = 0;
   for (std::uint64_t seed = 1; seed <= 30; ++seed) {
     TestMap map = clutter(seed, 250);
@@ -119,7 +106,7 @@ TEST_CASE("there is a path exactly where free cells join robot and goal") {
 }
 
 TEST_CASE("a body that was mapped and may leave is no wall on the way") {
-  const auto planner = make_cpu_planner(small_memory());
+  const auto planner = planner_of(false);
   TestMap map = open_room();
   map.box(0, 128, 256, 130);
   map.box(125, 128, 131, 130, 0);  // a door 0.6 m wide
@@ -134,48 +121,11 @@ TEST_CASE("a body that was mapped and may leave is no wall on the way") {
   CHECK(plan_of(*planner, request).status == PlanStatus::kOk);
 }
 
-TEST_CASE("by the time to go a robot by a wall has a path, one deep in it is blocked, an enclosed one has none") {
-  const auto planner = make_cpu_planner(small_memory());
-  TestMap map = open_room();
-  map.box(100, 100, 140, 140);
-  const EvidenceMap block = evidence_of(map), cage = evidence_of(walled_in(open_room(), 20, 80));
-  const Plan& near_wall = plan_of(*planner, request_on(block, {9.9, 12.0}, {2.0, 12.0}));
-  REQUIRE(near_wall.status == PlanStatus::kOk);
-  CHECK(near_wall.path[0] == Vec2{9.9, 12.0});
-  CHECK(plan_of(*planner, request_on(block, {12.0, 12.0}, {2.0, 12.0})).status == PlanStatus::kRobotBlocked);
-  CHECK(plan_of(*planner, request_on(block, {2.0, 12.0}, {12.0, 12.0})).status == PlanStatus::kNoPath);
+TEST_CASE("by the time to go an enclosed robot has no path, and that is certain") {
+  const auto planner = planner_of(false);
+  const EvidenceMap cage = evidence_of(open_room().frame(20, 80));
   CHECK(plan_of(*planner, request_on(cage, {5.0, 5.0}, {20.0, 20.0})).status == PlanStatus::kNoPath);
   CHECK(planner->collect().certified);
   // A wall 0.5 m away is no way through it: beyond it there are cells with a way, within kStartRadius_m.
   CHECK(plan_of(*planner, request_on(cage, {7.3, 5.0}, {20.0, 5.0})).status == PlanStatus::kNoPath);
-}
-
-TEST_CASE("by the time to go a goal outside the window is approached by its border") {
-  const auto planner = make_cpu_planner(small_memory());
-  const EvidenceMap map(1024, 0.1, {0.0, 0.0});
-  const Plan& plan = plan_of(*planner, request_on(map, {0.0, 0.0}, {60.0, 0.0}));
-  REQUIRE(plan.status == PlanStatus::kOk);
-  CHECK(plan.path.back().x > 15.0);
-  CHECK(std::fabs(plan.path.back().y) < 0.5);
-  CHECK(plan_of(*planner, request_on(map, {3.0, 3.0}, {3.0, 3.0})).path.back() == Vec2{3.0, 3.0});
-}
-
-TEST_CASE("by the time to go the window doubles for a way round outside it, and not for a robot walled in") {
-  // A wall 31 m long across the 25.6 m window between start and goal; its ends are outside.
-  EvidenceMap across(1024, 0.1, {12.8, 12.8});
-  for (std::int32_t j = -20; j < 290; ++j)
-    across.add({128, j}, EvidenceMap::kMax), across.add({129, j}, EvidenceMap::kMax);
-  PlannerConfig config;
-  config.max_side_cells = 512;
-  const auto planner = make_cpu_planner(config);
-  const PlanRequest request = request_on(across, {8.0, 12.8}, {17.6, 12.8});
-  for (int k = 0; k < field::kPatience; ++k) CHECK(plan_of(*planner, request).status == PlanStatus::kNoPath);
-  CHECK(plan_of(*planner, request).status == PlanStatus::kOk);
-  CHECK(planner->view_field().width == 512);
-
-  const EvidenceMap cage = evidence_of(walled_in(open_room(), 20, 80));
-  const auto caged = make_cpu_planner(config);
-  for (int k = 0; k < 2 * field::kPatience; ++k)
-    CHECK(plan_of(*caged, request_on(cage, {5.0, 5.0}, {20.0, 20.0})).status == PlanStatus::kNoPath);
-  CHECK(caged->view_field().width == 256);
 }

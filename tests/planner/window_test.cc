@@ -56,10 +56,10 @@ TEST_CASE("a new goal that could be inside moves the window over it") {
 }
 
 TEST_CASE("doubling keeps the middle") {
-  const Window w{{-128, 64}, 256, 0.1};
-  const Window twice = doubled(w);
-  CHECK(twice.side == 512);
-  CHECK(twice.low == CellIndex{-256, -64});
+  GrowingWindow window({{-128, 64}, 256, 0.1}, 512);
+  for (int k = 0; k < kPatience; ++k) window.note_walled_off(true);
+  CHECK(window.now().side == 512);
+  CHECK(window.now().low == CellIndex{-256, -64});
 }
 
 TEST_CASE("a goal outside projects onto the border along its line from the robot") {

@@ -5,16 +5,17 @@
 #include "hal/types/errors.h"
 #include "tests/recording/scratch.h"
 #include "tests/support/catch.h"
+#include "tests/support/text.h"
 
 namespace jaywalk::sim {
 namespace {
 
 TEST_CASE("CARMEN beams of 180 and 181 are one degree apart and begin at the right") {
   const double degree = kPi / 180;
-  CHECK(carmen_fan(180, kPi).first_angle_rad == Approx(-90 * degree));
-  CHECK(carmen_fan(180, kPi).angle_step_rad == Approx(degree));
-  CHECK(carmen_fan(181, kPi).angle_step_rad == Approx(degree));
-  CHECK(carmen_fan(360, kPi).angle_step_rad == Approx(degree / 2));
+  CHECK(carmen_fan(180, kPi).first_rad == Approx(-90 * degree));
+  CHECK(carmen_fan(180, kPi).step_rad == Approx(degree));
+  CHECK(carmen_fan(181, kPi).step_rad == Approx(degree));
+  CHECK(carmen_fan(360, kPi).step_rad == Approx(degree / 2));
 }
 
 TEST_CASE(
@@ -33,8 +34,8 @@ TEST_CASE(
     }
     text += "ODOM 0 0 0 0 0 0 0.5 host 1\n";  // back in time
     const RecordedLog log = load_carmen(scratch.write("beside.carmen", text));
-    const bool all_left_out = log.complaint().find("all ODOM lines are left out") != std::string::npos;
-    const bool one = log.complaint().find("1 line left out, the first is line 41: an ODOM line") != std::string::npos;
+    const bool all_left_out = holds(log.complaint(), "all ODOM lines are left out");
+    const bool one = holds(log.complaint(), "1 line left out, the first is line 41: an ODOM line");
     CHECK(all_left_out != one);
     CHECK(all_left_out == (log.odometry.size() == 20));
     return log.odometry.size();
@@ -66,7 +67,7 @@ TEST_CASE("CARMEN lines become scans and odometry, the FLASER pose before ODOM")
   CHECK(log.odometry[1].pose == Pose2{1, 0.5, 0.25});
   CHECK(log.odometry[1].stamp == time_from_seconds(2.0));
   REQUIRE(log.refused.size() == 1);
-  CHECK(log.refused[0].first_line == 6);
+  CHECK(log.refused[0].place.number == 6);
 }
 
 TEST_CASE("CARMEN's newer laser messages say their own beams, and ROBOTLASER1 where the laser is") {
@@ -93,15 +94,14 @@ TEST_CASE("CARMEN's newer laser messages say their own beams, and ROBOTLASER1 wh
       "raw.log", "ODOM 0.5 2 0 0 0 0 9.9 host 1\n" + raw + "10.0 host 1\n" + raw + "10.1 host 1\nRAWLASER1 3\n"));
   CHECK(bare.scans.size() == 2);
   CHECK(bare.odometry.size() == 1);
-  CHECK(bare.complaint().find("line 4: its number of words does not fit") != std::string::npos);
+  CHECK(holds(bare.complaint(), "line 4: its number of words does not fit"));
 }
 
 TEST_CASE("a CARMEN log without scans, or with damaged ones, is refused") {
   const Scratch scratch;
-  CHECK_THROWS_AS(load_carmen(scratch.write("a", "ODOM 0 0 0 0 0 0 1.5 host 1.5\n")), StartupError);
-  CHECK_THROWS_AS(load_carmen(scratch.write("b", "FLASER 2 1 1 0 0 0 0 x 0 2.0 host 2.0\n")), StartupError);
-  CHECK_THROWS_AS(load_carmen(scratch.write("c", "FLASER 0 0 0 0 0 0 0 2.0 host 2.0\n")), StartupError);
-  CHECK_THROWS_AS(load_carmen(scratch.write("d", "FLASER\n")), StartupError);
+  for (const char* text : {"ODOM 0 0 0 0 0 0 1.5 host 1.5\n", "FLASER 2 1 1 0 0 0 0 x 0 2.0 host 2.0\n",
+                           "FLASER 0 0 0 0 0 0 0 2.0 host 2.0\n", "FLASER\n"})
+    CHECK_THROWS_AS(load_carmen(scratch.write("a", text)), StartupError);
 }
 
 }  // namespace

@@ -5,20 +5,17 @@
 #include <string>
 
 #include "firmware/recording/recorder.h"
-#include "hal/types/errors.h"
 #include "tests/recording/made_ticks.h"
 #include "tests/recording/scratch.h"
 #include "tests/support/catch.h"
+#include "tests/support/text.h"
 
 namespace jaywalk {
 namespace {
 
 std::string good_recording(const Scratch& scratch, std::uint32_t ticks) {
   Recorder recorder({scratch.path("good.jwr"), "a setup", ticks});
-  for (std::uint32_t n = 0; n < ticks; ++n) {
-    fill(recorder.begin(Time{Duration{20'000'000LL * n}}), n);
-    recorder.commit();
-  }
+  for (std::uint32_t n = 0; n < ticks; ++n) record_tick(recorder, n);
   recorder.close();
   return scratch.read("good.jwr");
 }
@@ -33,14 +30,10 @@ struct Reading {
 Reading read_all(const std::string& file) {
   Reading reading;
   const auto read = std::make_unique<TickRecord>();
-  const auto expected = std::make_unique<TickRecord>();
   try {
     RecordingReader reader(file);
     while (reader.next(*read)) {
-      *expected = TickRecord{};
-      expected->now = Time{Duration{20'000'000LL * reading.good}};
-      fill(*expected, reading.good);
-      reading.strange = reading.strange || !same_bits(*read, *expected);
+      reading.strange = reading.strange || !same_bits(*read, *made_tick(reading.good));
       ++reading.good;
     }
     reading.warning = reader.warning();
@@ -59,7 +52,7 @@ TEST_CASE("a recording cut anywhere gives what stands before the cut, and a warn
     const Reading reading = read_all(scratch.write("cut.jwr", good.substr(0, size)));
     CHECK(reading.error.empty());
     CHECK_FALSE(reading.strange);
-    CHECK(reading.warning.find("cut short") != std::string::npos);
+    CHECK(holds(reading.warning, "cut short"));
   }
   for (std::size_t size = 0; size < header; ++size) {
     CHECK_FALSE(read_all(scratch.write("cut.jwr", good.substr(0, size))).error.empty());
@@ -74,7 +67,7 @@ TEST_CASE("a flipped bit anywhere is noticed and its place told") {
     std::string bad = good;
     bad[i] = static_cast<char>(bad[i] ^ (1 << (i % 8)));
     const Reading reading = read_all(scratch.write("bad.jwr", bad));
-    CHECK(reading.error.find("bad.jwr: byte ") != std::string::npos);
+    CHECK(holds(reading.error, "bad.jwr: byte "));
     CHECK_FALSE(reading.strange);
   }
 }
@@ -92,24 +85,19 @@ TEST_CASE("random damage never crashes the reader nor makes up a tick") {
   }
 }
 
-TEST_CASE("noise, an empty file and another version are refused by name") {
+TEST_CASE("noise, an empty file, another version and bytes behind the end mark are refused by name") {
   const Scratch scratch;
-  CHECK(read_all(scratch.write("empty.jwr", "")).error.find("too short") != std::string::npos);
-  CHECK(read_all(scratch.write("noise.jwr", std::string(500, 'x'))).error.find("not a recording") != std::string::npos);
+  const auto error_of = [&](const std::string& bytes) { return read_all(scratch.write("bad.jwr", bytes)).error; };
+  CHECK(holds(error_of(""), "too short"));
+  CHECK(holds(error_of(std::string(500, 'x')), "not a recording"));
+  CHECK(holds(error_of(good_recording(scratch, 2) + "x"), "follows the end mark"));
   CHECK_FALSE(read_all(scratch.path("missing.jwr")).error.empty());
   for (const int version : {6, 8}) {
     std::string other = good_recording(scratch, 1);
     other[8] = static_cast<char>(version);
-    CHECK(read_all(scratch.write("other.jwr", other)).error ==
-          scratch.path("other.jwr") + ": byte 8: format version " + std::to_string(version) +
-              ", this program reads 7 alone; replay it with the jaywalk that recorded it");
+    CHECK(error_of(other) == scratch.path("bad.jwr") + ": byte 8: format version " + std::to_string(version) +
+                                 ", this program reads 7 alone; replay it with the jaywalk that recorded it");
   }
-}
-
-TEST_CASE("what follows the end mark is refused") {
-  const Scratch scratch;
-  const std::string good = good_recording(scratch, 2);
-  CHECK(read_all(scratch.write("longer.jwr", good + "x")).error.find("follows the end mark") != std::string::npos);
 }
 
 }  // namespace

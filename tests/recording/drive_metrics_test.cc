@@ -11,51 +11,43 @@
 namespace jaywalk {
 namespace {
 
-TEST_CASE("a straight drive has its length and only small turns") {
-  // 2 m in steps of 0.03 m: 66 of them and one of 0.02 m; marks at 0.25 .. 2.0 (the last may miss by
-  // rounding) have turns at all but the first.
-  PathShape shape;
-  for (int i = 0; i <= 66; ++i) shape.add({0.03 * i, 1.0});
-  shape.add({2.0, 1.0});
-  shape.add({2.01, 1.0});
-  CHECK(shape.length_m() == Approx(2.01));
-  CHECK(shape.max_turn_deg() == Approx(0.0).margin(1e-9));
-  CHECK(shape.turn_histogram()[0] == 7);
+std::vector<Vec2> straight_way() {
+  std::vector<Vec2> way;
+  for (int i = 0; i <= 66; ++i) way.push_back({0.03 * i, 1.0});
+  way.insert(way.end(), {{2.0, 1.0}, {2.01, 1.0}});
+  return way;
 }
 
-TEST_CASE("a right angle at a mark is a turn of 90 degrees, in the tenth bin") {
-  PathShape shape;
-  shape.add({0, 0});
-  shape.add({0.5, 0});
-  shape.add({0.5, 0.5});
-  CHECK(shape.length_m() == Approx(1.0));
-  CHECK(shape.max_turn_deg() == Approx(90.0));
-  // Marks at 0.25, 0.5, 0.75, 1.0 m of travel: turns of 0, 90 and 0 degrees.
-  CHECK(shape.turn_histogram()[0] == 2);
-  CHECK(shape.turn_histogram()[9] == 1);
+std::vector<Vec2> unit_circle() {
+  std::vector<Vec2> way;
+  for (int i = 0; i <= 6283; ++i) way.push_back(direction(0.001 * i));
+  return way;
 }
 
-TEST_CASE("a circle of one metre turns by about 0.25 rad a mark") {
-  // 0.25 m of travel on a circle of radius 1 m is 0.25 rad = 14.3 degrees: bin 1.
-  PathShape shape;
-  for (int i = 0; i <= 6283; ++i) shape.add(direction(0.001 * i));
-  CHECK(shape.length_m() == Approx(6.283).epsilon(1e-4));
-  CHECK(shape.max_turn_deg() == Approx(14.32).epsilon(0.01));
-  CHECK(shape.turn_histogram()[1] == 24);  // 25 marks in 6.283 m, the first without a turn
-}
-
-TEST_CASE("turning back is a turn of 180 degrees, in the last bin") {
-  PathShape shape;
-  for (const double x : {0.0, 0.5, 0.0}) shape.add({x, 0});
-  CHECK(shape.max_turn_deg() == Approx(180.0));
-  CHECK(shape.turn_histogram()[kTurnBins - 1] == 1);
-}
-
-TEST_CASE("standing still adds nothing") {
-  PathShape shape;
-  for (int i = 0; i < 10; ++i) shape.add({1, 1});
-  CHECK(shape.length_m() == 0.0);
-  CHECK(shape.max_turn_deg() == 0.0);
+TEST_CASE("a path has its length, and its turns from mark to mark in bins of 10 degrees") {
+  struct Row {
+    const char* name;
+    std::vector<Vec2> way;
+    Approx length_m, max_turn_deg;
+    std::vector<std::pair<std::size_t, std::uint32_t>> bins;
+  };
+  const Row rows[] = {
+      // Marks at 0.25 .. 2.0 (the last may miss by rounding) have turns at all but the first.
+      {"straight on", straight_way(), Approx(2.01), Approx(0.0).margin(1e-9), {{0, 7}}},
+      // Marks at 0.25, 0.5, 0.75, 1.0 m of travel: turns of 0, 90 and 0 degrees.
+      {"a right angle at a mark", {{0, 0}, {0.5, 0}, {0.5, 0.5}}, Approx(1.0), Approx(90.0), {{0, 2}, {9, 1}}},
+      // 0.25 m of travel on a circle of 1 m are 0.25 rad = 14.32 degrees; 25 marks, the first without a turn.
+      {"a circle", unit_circle(), Approx(6.283).epsilon(1e-4), Approx(14.32).epsilon(0.01), {{1, 24}}},
+      {"back", {{0, 0}, {0.5, 0}, {0, 0}}, Approx(1.0), Approx(180.0), {{kTurnBins - 1, 1}}},
+      {"at rest", std::vector<Vec2>(10, Vec2{1, 1}), Approx(0.0), Approx(0.0), {}}};
+  for (const Row& row : rows) {
+    CAPTURE(row.name);
+    PathShape shape;
+    for (const Vec2 at : row.way) shape.add(at);
+    CHECK(shape.length_m() == row.length_m);
+    CHECK(shape.max_turn_deg() == row.max_turn_deg);
+    for (const auto& [bin, turns] : row.bins) CHECK(shape.turn_histogram()[bin] == turns);
+  }
 }
 
 TEST_CASE("a steady acceleration is measured exactly and its jerk is that of its ends") {
@@ -71,17 +63,13 @@ TEST_CASE("a steady acceleration is measured exactly and its jerk is that of its
   CHECK(smoothness.jerk_quantile_mps3(0.5) == Approx(0.0).margin(1e-9));
 }
 
-TEST_CASE("braking counts as much as speeding up") {
+TEST_CASE("braking counts as much as speeding up, and before a window is full nothing is told") {
   Smoothness smoothness;
-  for (int i = 0; i <= 50; ++i) smoothness.add(Time{Duration{20'000'000LL * i}}, 1.0 - 0.02 * i);
+  for (int i = 0; i <= 50; ++i) {
+    smoothness.add(Time{Duration{20'000'000LL * i}}, 1.0 - 0.02 * i);
+    if (i == 1) CHECK(std::isnan(smoothness.accel_max_mps2()));
+  }
   CHECK(smoothness.accel_max_mps2() == Approx(1.0));
-}
-
-TEST_CASE("before a window is full there is no acceleration to tell") {
-  Smoothness smoothness;
-  smoothness.add(Time{Duration{0}}, 0.0);
-  smoothness.add(Time{Duration{20'000'000}}, 9.0);
-  CHECK(std::isnan(smoothness.accel_max_mps2()));
 }
 
 TEST_CASE("quantiles are of the nearest rank") {
@@ -192,17 +180,5 @@ TEST_CASE(
 }
 
 }  // namespace
-
-TEST_CASE("a wait is told with how long it was and the body that was nearest meanwhile") {
-  Moments waits;
-  CHECK_FALSE(waits.any());
-  waits.add(20.0, 5.0, {1.0, 2.0}, "something stood in its way");
-  waits.note(19.0, 3, {1.0, 2.1}, {0.0, 0.0});  // before
-  waits.note(21.0, 4, {1.0, 3.5}, {0.4, 0.0});
-  waits.note(24.0, 5, {2.0, 2.0}, {0.0, 0.1});
-  CHECK(waits.words("Its longest waits:") ==
-        "Its longest waits:\n  at 20.0 s, 1.0, 2.0 m, for 5.0 s: something stood in its way; body 5 was 1.0 m from its "
-        "middle and stood\n");
-}
 
 }  // namespace jaywalk

@@ -4,6 +4,7 @@
 #include "hal/types/errors.h"
 #include "tests/recording/scratch.h"
 #include "tests/support/catch.h"
+#include "tests/support/text.h"
 
 namespace jaywalk::sim {
 namespace {
@@ -22,7 +23,7 @@ TEST_CASE("odometry of another clock than the scans' is refused, and what is mis
   CHECK_THROWS_AS(with("98 0 0 0 0 0\n99 0 0 0 0 0\n"), StartupError);
   CHECK(with("99 0 0 0 0 0\n102.1 0 0 0 0 0\n").complaint().empty());
   const std::string told = with("99 0 0 0 0 0\n101 0 0 0 0 0\n").complaint();
-  CHECK(told.find("odom.txt: nothing of 2.0 of the 3.0 s of scans") != std::string::npos);
+  CHECK(holds(told, "odom.txt: nothing of 2.0 of the 3.0 s of scans"));
 }
 
 TEST_CASE("odometry that is set anew on its way goes on from where the robot is") {
@@ -37,7 +38,7 @@ TEST_CASE("odometry that is set anew on its way goes on from where the robot is"
   CHECK(log.odometry[3].pose.x == Approx(1.4));
   CHECK(log.odometry[3].pose.y == Approx(2.0));
   CHECK(log.odometry[3].pose.heading == Approx(0.0).margin(1e-6));
-  CHECK(log.complaint().find("odom.txt: 1 line left out, the first is line 3: it jumps") != std::string::npos);
+  CHECK(holds(log.complaint(), "odom.txt: 1 line left out, the first is line 3: it jumps"));
 }
 
 TEST_CASE("odometry of a CSV file is read by the names of its columns, which are told, or by their order") {
@@ -52,7 +53,7 @@ TEST_CASE("odometry of a CSV file is read by the names of its columns, which are
       "99.0,,,,1.0,2.0,0.5,\n101.0,,,,1.5,2.0,0.5,stop_zone\n");
   REQUIRE(own.odometry.size() == 2);
   CHECK(own.odometry[1].pose == Pose2{1.5, 2.0, 0.5});
-  CHECK(own.complaint().find("of its columns t_s, est_x_m, est_y_m, est_heading_rad are taken") != std::string::npos);
+  CHECK(holds(own.complaint(), "of its columns t_s, est_x_m, est_y_m, est_heading_rad are taken"));
   for (const char* text : {"t,x,y,theta\n99,1,2,0.5\n101,1.5,2,0.5\n", "99, 1, 2, 0.5\n101, 1.5, 2, 0.5\n",
                            "99 1 2 0.5\n101 1.5 2 0.5\n", "theta,y,x,time\n0.5,2,1,99\n0.5,2,1.5,101\n"}) {
     const RecordedLog log = with(text);

@@ -30,13 +30,8 @@ TEST_CASE("a histogram's bins lie between powers of two, 64 a doubling") {
   CHECK(h.quantile(0.1) == 0.0);
   CHECK(h.max() == 1e30);
   CHECK(h.count() == 6);
-  const auto doublings = h.doublings();
-  REQUIRE(doublings.size() == 5);
-  CHECK(doublings[0] == std::pair{0.0, std::uint64_t{2}});
-  CHECK(doublings[1] == std::pair{2.0, std::uint64_t{1}});
-  CHECK(doublings[2] == std::pair{4.0, std::uint64_t{1}});
-  CHECK(doublings[3] == std::pair{128.0, std::uint64_t{1}});
-  CHECK(doublings[4] == std::pair{1048576.0, std::uint64_t{1}});
+  using Doublings = std::vector<std::pair<double, std::uint64_t>>;
+  CHECK(h.doublings() == Doublings{{0.0, 2}, {2.0, 1}, {4.0, 1}, {128.0, 1}, {1048576.0, 1}});
 }
 
 // Three days at five ticks a second: as many kept poses as ticks would make at the first spacing.

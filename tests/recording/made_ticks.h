@@ -3,10 +3,14 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
+#include <cstring>
 #include <limits>
+#include <memory>
+#include <tuple>
 #include <vector>
 
-#include "firmware/recording/tick_record.h"
+#include "firmware/recording/recorder.h"
+#include "firmware/recording/tick_entry.h"
 
 namespace jaywalk {
 
@@ -67,56 +71,76 @@ inline void fill(TickRecord& r, std::uint32_t n) {
   r.command = {Time{Duration{16 + n}}, x * 16, x * 17};
 }
 
+inline Time time_of(std::uint32_t tick) { return Time{Duration{20'000'000LL * tick}}; }
+
+/// Tick `n` as `fill` makes it.
+inline std::unique_ptr<TickRecord> made_tick(std::uint32_t n) {
+  auto record = std::make_unique<TickRecord>();
+  record->now = time_of(n);
+  fill(*record, n);
+  return record;
+}
+
+inline void record_tick(Recorder& recorder, std::uint32_t n) {
+  fill(recorder.begin(time_of(n)), n);
+  recorder.commit();
+}
+
+/// The entry that a new encoder makes of a record.
+inline std::vector<unsigned char> entry_of(const TickRecord& record, std::uint64_t lost = 0) {
+  std::vector<unsigned char> bytes(kMaxEntryBytes);
+  bytes.resize(TickEncoder().encode(record, lost, bytes));
+  return bytes;
+}
+
+/// The record that a new decoder makes of an entry; null where it refuses it.
+inline std::unique_ptr<TickRecord> record_of(std::span<const unsigned char> entry) {
+  auto record = std::make_unique<TickRecord>();
+  std::uint64_t lost = 0;
+  return TickDecoder().decode(entry, *record, lost) ? std::move(record) : nullptr;
+}
+
 [[nodiscard]] inline bool same_scan(const LaserScan& a, const LaserScan& b) {
-  bool same = a.stamp == b.stamp && a.sequence == b.sequence && a.beam_count == b.beam_count &&
-              a.first_angle_rad == b.first_angle_rad && a.angle_step_rad == b.angle_step_rad &&
-              a.range_min_m == b.range_min_m && a.range_max_m == b.range_max_m && a.sweep == b.sweep &&
-              a.period == b.period;
-  for (std::size_t i = 0; i < kMaxBeams; ++i) {
-    same = same && std::bit_cast<std::uint32_t>(a.range_m[i]) == std::bit_cast<std::uint32_t>(b.range_m[i]);
-  }
-  return same;
+  const auto fields = [](const LaserScan& s) {
+    return std::tie(s.stamp, s.sequence, s.beam_count, s.first_angle_rad, s.angle_step_rad, s.range_min_m,
+                    s.range_max_m, s.sweep, s.period);
+  };
+  return fields(a) == fields(b) && std::memcmp(a.range_m.data(), b.range_m.data(), sizeof a.range_m) == 0;
 }
 
 [[nodiscard]] inline bool same_fix(const OutsideFix& a, const OutsideFix& b) {
-  bool same = a.stamp == b.stamp && a.sequence == b.sequence && a.has_pose == b.has_pose &&
-              a.map_from_robot == b.map_from_robot && a.position_std_m == b.position_std_m &&
-              a.heading_std_rad == b.heading_std_rad && a.mover_std_m == b.mover_std_m &&
-              a.movers.size() == b.movers.size();
-  for (std::size_t i = 0; same && i < a.movers.size(); ++i) {
-    same = a.movers[i].id == b.movers[i].id && a.movers[i].position_in_map == b.movers[i].position_in_map &&
-           a.movers[i].radius_m == b.movers[i].radius_m;
-  }
-  return same;
+  const auto fields = [](const OutsideFix& f) {
+    return std::tie(f.stamp, f.sequence, f.has_pose, f.map_from_robot, f.position_std_m, f.heading_std_rad,
+                    f.mover_std_m);
+  };
+  return fields(a) == fields(b) && std::equal(a.movers.begin(), a.movers.end(), b.movers.begin(), b.movers.end(),
+                                              [](const ObservedMover& m, const ObservedMover& n) {
+                                                return std::tie(m.id, m.position_in_map, m.radius_m) ==
+                                                       std::tie(n.id, n.position_in_map, n.radius_m);
+                                              });
 }
 
 [[nodiscard]] inline bool same_path(const PlannedPath& a, const PlannedPath& b) {
   return a.stamp == b.stamp && std::equal(a.points.begin(), a.points.end(), b.points.begin(), b.points.end());
 }
 
-[[nodiscard]] inline bool same_inputs(const TickRecord& a, const TickRecord& b) {
-  return a.now == b.now && a.took == b.took && same_scan(a.scan, b.scan) && same_fix(a.fix, b.fix) &&
-         a.wheels.stamp == b.wheels.stamp && a.wheels.sequence == b.wheels.sequence &&
-         a.wheels.left_rad == b.wheels.left_rad && a.wheels.right_rad == b.wheels.right_rad &&
-         a.wheels.left_radps == b.wheels.left_radps && a.wheels.right_radps == b.wheels.right_radps &&
-         a.wheels.trouble == b.wheels.trouble && a.wheels.fault == b.wheels.fault && a.wheels.stop == b.wheels.stop &&
-         a.wheels.ready == b.wheels.ready && a.input.stamp == b.input.stamp && a.input.has_goal == b.input.has_goal &&
-         a.input.goal_in_map == b.input.goal_in_map && a.input.goal_tolerance_m == b.input.goal_tolerance_m &&
-         std::bit_cast<std::uint64_t>(a.input.goal_heading_rad) ==
-             std::bit_cast<std::uint64_t>(b.input.goal_heading_rad) &&
-         a.input.goal_heading_tolerance_rad == b.input.goal_heading_tolerance_rad &&
-         a.input.emergency_stop == b.input.emergency_stop && a.input.reset == b.input.reset;
-}
-
 [[nodiscard]] inline bool same_bits(const TickRecord& a, const TickRecord& b) {
-  return same_inputs(a, b) && a.pose.stamp == b.pose.stamp && a.pose.map_from_robot == b.pose.map_from_robot &&
-         a.pose.position_std_m == b.pose.position_std_m && a.pose.heading_std_rad == b.pose.heading_std_rad &&
-         a.plan_asked == b.plan_asked && a.plan_sequence == b.plan_sequence && a.plan_stamp == b.plan_stamp &&
-         a.plan_status == b.plan_status && same_path(a.path, b.path) && a.wanted == b.wanted &&
-         a.latency.tick_s == b.latency.tick_s && a.latency.drive_s == b.latency.drive_s &&
-         a.verdict.permitted == b.verdict.permitted && a.verdict.reasons == b.verdict.reasons &&
-         a.verdict.gap_m == b.verdict.gap_m && a.command.stamp == b.command.stamp &&
-         a.command.left_radps == b.command.left_radps && a.command.right_radps == b.command.right_radps;
+  const auto devices = [](const TickRecord& t) {
+    const WheelState& w = t.wheels;
+    const OperatorInput& i = t.input;
+    return std::tie(t.now, t.took, w.stamp, w.sequence, w.left_rad, w.right_rad, w.left_radps, w.right_radps, w.trouble,
+                    w.fault, w.stop, w.ready, i.stamp, i.has_goal, i.goal_in_map, i.goal_tolerance_m,
+                    i.goal_heading_tolerance_rad, i.emergency_stop, i.reset);
+  };
+  const auto made = [](const TickRecord& t) {
+    return std::tie(t.pose.stamp, t.pose.map_from_robot, t.pose.position_std_m, t.pose.heading_std_rad, t.plan_asked,
+                    t.plan_sequence, t.plan_stamp, t.plan_status, t.wanted, t.latency.tick_s, t.latency.drive_s,
+                    t.verdict.permitted, t.verdict.reasons, t.verdict.gap_m, t.command.stamp, t.command.left_radps,
+                    t.command.right_radps);
+  };
+  const auto heading = [](const TickRecord& t) { return std::bit_cast<std::uint64_t>(t.input.goal_heading_rad); };
+  return devices(a) == devices(b) && heading(a) == heading(b) && made(a) == made(b) && same_scan(a.scan, b.scan) &&
+         same_fix(a.fix, b.fix) && same_path(a.path, b.path);
 }
 
 }  // namespace jaywalk

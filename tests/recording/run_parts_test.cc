@@ -11,8 +11,6 @@ namespace {
 
 using std::filesystem::exists;
 
-Time at(std::uint32_t n) { return Time{Duration{20'000'000LL * n}}; }
-
 TEST_CASE("the oldest part goes before the next is made, without parts a run lies in its own folder") {
   const Scratch run;
   RunParts parts(run.folder(), {.bytes = 1'000'000, .parts = 3});
@@ -33,7 +31,6 @@ TEST_CASE("the oldest part goes before the next is made, without parts a run lie
 
 TEST_CASE("a folder that is called like a part and holds no recording is refused, not removed") {
   const Scratch run;
-  std::filesystem::create_directories(run.path("part-000001"));
   run.write("part-000001/thesis.tex", "years of work");
   CHECK_THROWS_AS(RunParts(run.folder(), {}), StartupError);
   CHECK_THROWS_AS(RunParts(run.folder(), {.bytes = 1'000'000, .parts = 3}), StartupError);
@@ -54,15 +51,11 @@ TEST_CASE("parts are those after the last gap, by number and not by name, other 
 TEST_CASE("a recording goes on in another file with the next tick that is drained, and its scan again") {
   const Scratch scratch;
   Recorder recorder({scratch.path("1.jwr"), "first", 8});
-  const auto tick = [&](std::uint32_t n) {
-    fill(recorder.begin(at(n)), n);
-    recorder.commit();
-  };
-  tick(0), tick(1);
+  for (const std::uint32_t n : {0U, 1U}) record_tick(recorder, n);
   REQUIRE(recorder.drain());
-  CHECK(recorder.last_drained() == at(1));
+  CHECK(recorder.last_drained() == time_of(1));
   const std::uintmax_t bytes = recorder.bytes();
-  tick(2);  // not drained: a tick of the next
+  record_tick(recorder, 2);  // not drained: a tick of the next
   recorder.continue_in(scratch.path("2.jwr"), "second");
   CHECK(std::filesystem::file_size(scratch.path("1.jwr")) == bytes + 12);  // and the end mark
   REQUIRE(recorder.close());
@@ -71,10 +64,7 @@ TEST_CASE("a recording goes on in another file with the next tick that is draine
   CHECK((first.next(*read) && first.next(*read) && !first.next(*read) && first.warning().empty()));
   CHECK(second.setup() == "second");
   REQUIRE(second.next(*read));
-  const auto made = std::make_unique<TickRecord>();
-  made->now = at(2);
-  fill(*made, 2);
-  CHECK(same_bits(*read, *made));
+  CHECK(same_bits(*read, *made_tick(2)));
   CHECK_FALSE(second.next(*read));
   CHECK_THROWS_AS(recorder.continue_in("/nowhere/at/all/3.jwr", ""), StartupError);
 }
@@ -86,11 +76,11 @@ TEST_CASE("tables go on in another folder with the first row later than the part
     RunReport report(run.folder());
     const auto tell = [&](std::uint32_t n) {
       const auto record = std::make_unique<TickRecord>();
-      record->now = at(n);
+      record->now = time_of(n);
       report.add({.record = *record});
     };
     tell(1);
-    report.continue_in(run.path("next"), at(2));
+    report.continue_in(run.path("next"), time_of(2));
     tell(2), tell(3);
     report.finish({});
   }

@@ -26,6 +26,7 @@ class Scratch {
   [[nodiscard]] std::string path(const std::string& name) const { return (folder_ / name).string(); }
 
   std::string write(const std::string& name, const std::string& bytes) const {
+    std::filesystem::create_directories((folder_ / name).parent_path());
     std::ofstream(path(name), std::ios::binary) << bytes;
     return path(name);
   }

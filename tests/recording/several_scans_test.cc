@@ -1,9 +1,7 @@
 // What a robot with several scanners records.
-#include <array>
 #include <memory>
 
 #include "firmware/control_setup.h"
-#include "firmware/recording/tick_entry.h"
 #include "tests/recording/made_ticks.h"
 #include "tests/support/catch.h"
 
@@ -12,8 +10,7 @@ namespace {
 
 /// Tick `n` with a second scan every other tick and a third every fourth.
 std::unique_ptr<TickRecord> made(std::uint32_t n) {
-  auto record = std::make_unique<TickRecord>();
-  fill(*record, n);
+  auto record = made_tick(n);
   for (const std::uint32_t every : {2U, 4U}) {
     LaserScan scan = record->scan;
     scan.sequence = 1 + n / every;
@@ -50,25 +47,17 @@ TEST_CASE("each scanner's scans come back with the tick that they were new in, a
 TEST_CASE("a scan that is not new takes a byte, and one scanner's record none for others") {
   TickEncoder one, several;
   std::vector<unsigned char> bytes(kMaxEntryBytes);
-  const auto alone = std::make_unique<TickRecord>();
-  fill(*alone, 0);
-  (void)one.encode(*alone, 0, bytes), (void)several.encode(*made(0), 0, bytes);
-  fill(*alone, 1);
-  CHECK(several.encode(*made(1), 0, bytes) == one.encode(*alone, 0, bytes) + 1 + 4 + 2);
+  (void)one.encode(*made_tick(0), 0, bytes), (void)several.encode(*made(0), 0, bytes);
+  CHECK(several.encode(*made(1), 0, bytes) == one.encode(*made_tick(1), 0, bytes) + 1 + 4 + 2);
 }
 
 TEST_CASE("a record that says it has more scanners than there can be, or none, is refused") {
-  const auto record = made(0);
-  std::vector<unsigned char> bytes(kMaxEntryBytes);
-  TickEncoder encoder;
-  const auto alone = std::make_unique<TickRecord>();
-  fill(*alone, 0);
-  const std::size_t count_at = TickEncoder().encode(*alone, 0, bytes) + 1;
-  const std::size_t length = encoder.encode(*record, 0, bytes);
-  for (const unsigned char count : std::array<unsigned char, 2>{0, 4}) {
-    bytes[count_at] = count;
-    std::uint64_t lost = 0;
-    CHECK_FALSE(TickDecoder().decode(std::span(bytes).first(length), *std::make_unique<TickRecord>(), lost));
+  const std::size_t count_at = entry_of(*made_tick(0)).size() + 1;
+  std::vector<unsigned char> bytes = entry_of(*made(0));
+  REQUIRE(record_of(bytes));
+  for (const int count : {0, 4}) {
+    bytes[count_at] = static_cast<unsigned char>(count);
+    CHECK_FALSE(record_of(bytes));
   }
 }
 

@@ -23,31 +23,37 @@ Pose2 integrate(Pose2 pose, const WheelState& from, const WheelState& to, const 
 
 OdometryPose at(double t, Pose2 pose) { return {time_from_seconds(t), pose, std::nullopt}; }
 
-TEST_CASE("a metre ahead turns both wheels of 0.1 m by ten radians") {
-  const auto trail = wheel_trail({at(0, {2, 3, kPi / 2}), at(2, {2, 4, kPi / 2})}, nominal_drive());
-  REQUIRE(trail.size() == 2);
-  CHECK(trail[0].sequence == 1);
-  CHECK(trail[0].left_rad == 0.0);
-  CHECK(trail[1].left_rad == Approx(10.0));
-  CHECK(trail[1].right_rad == Approx(10.0));
-  CHECK(trail[1].left_radps == Approx(5.0));  // in 2 s
-}
-
-TEST_CASE("a quarter circle to the left is an arc of pi/2 about a point one metre left") {
-  // From (0, 0) heading east to (1, 1) heading north: arc pi/2 * 1 m. The left wheel, 0.25 m nearer
-  // the centre, runs 0.75 * pi/2 = 1.1781 m, the right one 1.25 * pi/2 = 1.9635 m.
-  const auto trail = wheel_trail({at(0, {0, 0, 0}), at(1, {1, 1, kPi / 2})}, nominal_drive());
-  CHECK(trail[1].left_rad == Approx(11.781).epsilon(1e-4));
-  CHECK(trail[1].right_rad == Approx(19.635).epsilon(1e-4));
-}
-
-TEST_CASE("turning on the spot turns the wheels against each other, backing turns them back") {
-  // 90 degrees with 0.5 m between the wheels: 0.25 * pi/2 = 0.3927 m each.
-  const auto turned = wheel_trail({at(0, {0, 0, 3}), at(1, {0, 0, 3 + kPi / 2 - 2 * kPi})}, nominal_drive());
-  CHECK(turned[1].left_rad == Approx(-3.927).epsilon(1e-4));
-  CHECK(turned[1].right_rad == Approx(3.927).epsilon(1e-4));
-  const auto backed = wheel_trail({at(0, {0, 0, 0}), at(1, {-0.5, 0, 0})}, nominal_drive());
-  CHECK(backed[1].left_rad == Approx(-5.0));
+TEST_CASE("the way from pose to pose turns the wheels by hand's reckoning") {
+  struct Row {
+    const char* name;
+    Pose2 from, to;
+    Approx left_rad, right_rad;  // of wheels of 0.1 m, 0.5 m apart
+  };
+  const Row rows[] = {
+      {"a metre ahead", {2, 3, kPi / 2}, {2, 4, kPi / 2}, Approx(10.0), Approx(10.0)},
+      // A quarter circle about a point one metre left: 0.75 * pi/2 = 1.1781 m and 1.25 * pi/2 = 1.9635 m.
+      {"a quarter circle to the left",
+       {0, 0, 0},
+       {1, 1, kPi / 2},
+       Approx(11.781).epsilon(1e-4),
+       Approx(19.635).epsilon(1e-4)},
+      // 90 degrees with 0.5 m between the wheels: 0.25 * pi/2 = 0.3927 m each.
+      {"turning on the spot",
+       {0, 0, 3},
+       {0, 0, 3 + kPi / 2 - 2 * kPi},
+       Approx(-3.927).epsilon(1e-4),
+       Approx(3.927).epsilon(1e-4)},
+      {"backing", {0, 0, 0}, {-0.5, 0, 0}, Approx(-5.0), Approx(-5.0)}};
+  for (const Row& row : rows) {
+    CAPTURE(row.name);
+    const auto trail = wheel_trail({at(0, row.from), at(2, row.to)}, nominal_drive());
+    REQUIRE(trail.size() == 2);
+    CHECK(trail[0].sequence == 1);
+    CHECK(trail[0].left_rad == 0.0);
+    CHECK(trail[1].left_rad == row.left_rad);
+    CHECK(trail[1].right_rad == row.right_rad);
+    CHECK(trail[1].left_radps == Approx(trail[1].left_rad / 2.0));
+  }
 }
 
 TEST_CASE("integrating the wheels back gives the poses that arcs can reach") {

@@ -1,22 +1,15 @@
 // Calibration on a simulated robot that is not what its model says.
-#include <unistd.h>
-
-#include <filesystem>
-#include <fstream>
-
 #include "apps/setup/calibration.h"
 #include "hal/sim/simulation.h"
-#include "hal/types/errors.h"
-#include "hil/far_end/simulated_robot.h"
-#include "tests/support/catch.h"
+#include "tests/robot/robot_file_text.h"
+#include "tests/robot/wired_bench.h"
 
 using namespace jaywalk;
 
 namespace {
 
 sim::Scenario hall(const sim::TrueRobot& truth) {
-  sim::Scenario scenario = sim::load_scenario(std::string(JAYWALK_RIG) + "/drive/hall.toml");
-  scenario.wanderers.clear();
+  sim::Scenario scenario = tests::empty_hall();
   scenario.truth = truth;
   return scenario;
 }
@@ -29,7 +22,21 @@ std::vector<CalibrationLog> guided(
   const Hal hal = world.hal();
   std::vector<LaserScanner*> lasers{&hal.laser};
   lasers.insert(lasers.end(), hal.other_lasers.begin(), hal.other_lasers.end());
-  return drive_guided({.model = model}, hal.drive, lasers, hal.clock, stopped);
+  return drive_guided({model, hal.drive, lasers, hal.clock, stopped});
+}
+
+void check_mount(const Pose2& found, const Pose2& truth) {
+  CAPTURE(found.x, found.y, found.heading);
+  CHECK(distance(found.position(), truth.position()) < 0.01);
+  CHECK(std::fabs(wrap_angle(found.heading - truth.heading)) < 0.5 * kPi / 180.0);
+}
+
+void check_found(const RobotGeometry& found, const sim::TrueRobot& truth) {
+  CAPTURE(found.left_radius_m, found.right_radius_m, found.track_width_m);
+  CHECK(std::fabs(found.left_radius_m / *truth.left_wheel_radius_m - 1.0) < 0.005);
+  CHECK(std::fabs(found.right_radius_m / *truth.right_wheel_radius_m - 1.0) < 0.005);
+  CHECK(std::fabs(found.track_width_m / *truth.track_width_m - 1.0) < 0.01);
+  check_mount(found.robot_from_laser, *truth.robot_from_laser);
 }
 
 }  // namespace
@@ -42,13 +49,8 @@ TEST_CASE("wheel radii, track width and mount come out, whatever the file says")
     scenario.model.laser.turns = turns;
     const Calibration result = calibrate(guided(scenario, 1, scenario.model).front(), believed_of(scenario.model));
     const RobotGeometry &found = result.found, &within = result.within;
-    const Pose2 &mount = found.robot_from_laser, &is = *truth.robot_from_laser;
-    CAPTURE(turns, found.left_radius_m, found.right_radius_m, found.track_width_m, mount.x, mount.y, mount.heading);
-    CHECK(std::fabs(found.left_radius_m / *truth.left_wheel_radius_m - 1.0) < 0.005);
-    CHECK(std::fabs(found.right_radius_m / *truth.right_wheel_radius_m - 1.0) < 0.005);
-    CHECK(std::fabs(found.track_width_m / *truth.track_width_m - 1.0) < 0.01);
-    CHECK(norm(mount.position() - is.position()) < 0.01);
-    CHECK(std::fabs(wrap_angle(mount.heading - is.heading)) < 0.5 * kPi / 180.0);
+    CAPTURE(turns);
+    check_found(found, truth);
     // The intervals hold the truth, and are no wider than the figures above.
     CHECK(std::fabs(found.left_radius_m - *truth.left_wheel_radius_m) < within.left_radius_m);
     CHECK(std::fabs(found.track_width_m - *truth.track_width_m) < within.track_width_m);
@@ -71,11 +73,9 @@ TEST_CASE("of two scanners the mount of each is found by its own scans") {
   const std::vector<CalibrationLog> logs = guided(scenario, 1, believed);
   REQUIRE(logs.size() == 2);
   for (const std::size_t k : {0U, 1U}) {
-    const Pose2 found = calibrate(logs[k], believed_of(believed, k)).found.robot_from_laser,
-                is = scenario.model.lasers()[k].robot_from_laser;
-    CAPTURE(k, found.x, found.y, found.heading);
-    CHECK(norm(found.position() - is.position()) < 0.01);
-    CHECK(std::fabs(wrap_angle(found.heading - is.heading)) < 0.5 * kPi / 180.0);
+    CAPTURE(k);
+    check_mount(calibrate(logs[k], believed_of(believed, k)).found.robot_from_laser,
+                scenario.model.lasers()[k].robot_from_laser);
   }
 }
 
@@ -102,24 +102,21 @@ TEST_CASE("the guided drive ends at rest where it is told to, where something is
     sim::Simulation world(scenario, 1);
     const Hal hal = world.hal();
     LaserScanner* const laser = &hal.laser;
-    std::string said;
-    try {
-      static_cast<void>(drive_guided({.model = scenario.model}, hal.drive, {&laser, 1}, hal.clock, stopped));
-    } catch (const StartupError& error) {
-      said = error.what();
-    }
+    const std::string said = refusal_of([&] {
+      return drive_guided({scenario.model, hal.drive, {&laser, 1}, hal.clock, stopped});
+    });
     hal.clock.sleep_until(hal.clock.now() + std::chrono::milliseconds(500));
     CHECK(std::fabs(world.truth().twist.v_mps) < 0.01);
     CHECK(world.truth().contacts == 0);
     return said;
   };
   int asked = 0;
-  CHECK(complaint([&asked] { return ++asked > 150; }).rfind("calibration: broken off", 0) == 0);
+  CHECK(complaint([&asked] { return ++asked > 150; }).starts_with("calibration: broken off"));
   scenario.faults = {{.at_s = 3.0, .for_s = 1000.0, .kind = sim::FaultKind::kLeftWheelStuck}};
-  CHECK(complaint([] { return false; }).rfind("calibration: a wheel does not turn as commanded", 0) == 0);
+  CHECK(complaint([] { return false; }).starts_with("calibration: a wheel does not turn as commanded"));
   scenario.faults.clear();
   scenario.start = {2.0, 3.0, kPi};  // 1.3 m to the wall: too near for the straight
-  CHECK(complaint([] { return false; }).rfind("calibration: something stands too near", 0) == 0);
+  CHECK(complaint([] { return false; }).starts_with("calibration: something stands too near"));
 }
 
 TEST_CASE("a handful of scans is no drive") {
@@ -130,41 +127,24 @@ TEST_CASE("a handful of scans is no drive") {
 
 TEST_CASE("a robot on wires calibrates itself") {
   const sim::TrueRobot truth{0.0985, 0.0968, 0.341, Pose2{0.12, 0.015, 0.05}};
-  const auto folder = std::filesystem::temp_directory_path() / ("jaywalk_calibrate_" + std::to_string(::getpid()));
-  RobotFile file = load_robot_file(std::string(JAYWALK_RIG) + "/drive/robot.toml");
-  file.setup.backend = Backend::kCpu;
-  rig::HandLivingClock clock;
-  rig::InProcessRobot robot(file, hall(truth), 3, clock, {folder});
-  clock.live = [&robot] {
-    robot.step_far_end();
-    robot.laser().step();
-  };
-  const Time limit = clock.now() + std::chrono::seconds(5);
-  while (robot.laser().latest().sequence == 0 && clock.now() < limit)
-    clock.sleep_until(clock.now() + std::chrono::milliseconds(1));
-  static_cast<void>(robot.drive().arm());
-  LaserScanner* const laser = &robot.laser();
-  const GuidedDriveSetup setup{.model = file.setup.model, .tick = file.setup.tick()};
-  const CalibrationLog log = drive_guided(setup, robot.drive(), {&laser, 1}, clock, [] { return false; }).front();
-  std::filesystem::remove_all(folder);
-  CHECK(robot.far_end().rim_speed() < 0.001);
-  CHECK(robot.far_end().truth().contacts == 0);
-  const RobotGeometry found = calibrate(log, believed_of(file.setup.model)).found;
-  CAPTURE(found.left_radius_m, found.right_radius_m, found.track_width_m);
-  CHECK(std::fabs(found.left_radius_m / *truth.left_wheel_radius_m - 1.0) < 0.005);
-  CHECK(std::fabs(found.right_radius_m / *truth.right_wheel_radius_m - 1.0) < 0.005);
-  CHECK(std::fabs(found.track_width_m / *truth.track_width_m - 1.0) < 0.01);
-  CHECK(norm(found.robot_from_laser.position() - truth.robot_from_laser->position()) < 0.01);
-  CHECK(std::fabs(found.robot_from_laser.heading - truth.robot_from_laser->heading) < 0.5 * kPi / 180.0);
+  tests::LiveBench bench(
+      [](const Scratch& folder) { return tests::robot_in(folder.folder(), tests::rig_file("robot")); },
+      [&](const RobotFile&) { return hall(truth); });
+  static_cast<void>(bench.arm());
+  LaserScanner* const laser = &bench.robot.laser();
+  const auto never = [] { return false; };
+  const ControlSetup& setup = bench.file.setup;
+  const CalibrationLog log =
+      drive_guided({setup.model, bench.robot.drive(), {&laser, 1}, bench.clock, never, setup.tick()}).front();
+  CHECK(bench.speed_mps() < 0.001);
+  CHECK(bench.far_end().truth().contacts == 0);
+  check_found(calibrate(log, believed_of(setup.model)).found, truth);
 }
 
 TEST_CASE("wheels that are not alike drive straight by a file that says so") {
-  const auto path = std::filesystem::temp_directory_path() / ("jaywalk_radii_" + std::to_string(::getpid()) + ".toml");
-  std::ifstream rig(std::string(JAYWALK_RIG) + "/drive/robot.toml");
-  std::ofstream(path) << rig.rdbuf() << "left_wheel_radius_m = 0.0985\nright_wheel_radius_m = 0.0968\n"
-                      << "track_width_m = 0.341\n";
-  const RobotFile file = load_robot_file(path);
-  std::filesystem::remove(path);
+  const RobotFile file =
+      tests::load(tests::text_of(tests::rig_file("robot")) +
+                  "left_wheel_radius_m = 0.0985\nright_wheel_radius_m = 0.0968\ntrack_width_m = 0.341\n");
   const auto& axes = file.drive.cia402.axes;
   // 76600 counts a turn; a metre at the left rim is 1 / 0.0985 of the wheel's own radians, and 1 / 0.0975 of the
   // loop's.

@@ -1,14 +1,12 @@
 #include "firmware/robot/control_socket.h"
 
-#include <sys/socket.h>
-#include <sys/un.h>
 #include <unistd.h>
 
-#include <cstring>
 #include <fstream>
 #include <thread>
 
 #include "hal/types/errors.h"
+#include "tests/robot/socket_address.h"
 #include "tests/support/catch.h"
 
 using namespace jaywalk;
@@ -21,17 +19,10 @@ std::filesystem::path place() {
 
 std::string echo(std::string_view line) { return "heard " + std::string(line) + "\n"; }
 
-sockaddr_un address_of_place() {
-  sockaddr_un address{};
-  address.sun_family = AF_UNIX;
-  std::strcpy(address.sun_path, place().c_str());
-  return address;
-}
-
 /// What the socket answers to raw bytes.
 std::string answer_to(const std::string& bytes) {
   const wire::FileDescriptor peer(::socket(AF_UNIX, SOCK_STREAM, 0));
-  const sockaddr_un address = address_of_place();
+  const sockaddr_un address = tests::address_of(place());
   REQUIRE(::connect(peer.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0);
   static_cast<void>(::send(peer.get(), bytes.data(), bytes.size(), MSG_NOSIGNAL));
   ::shutdown(peer.get(), SHUT_WR);
@@ -42,12 +33,6 @@ std::string answer_to(const std::string& bytes) {
 }
 
 }  // namespace
-
-TEST_CASE("a line said to the control socket is answered") {
-  const ControlSocket socket(place(), echo);
-  CHECK(ask(place(), "status") == "heard status\n");
-  CHECK(ask(place(), "goto 1 2") == "heard goto 1 2\n");
-}
 
 TEST_CASE("the answer to a place is waited for while the run searches its map") {
   const ControlSocket socket(place(), [](std::string_view) {
@@ -61,7 +46,7 @@ TEST_CASE("a line without end, too long or of odd bytes hurts nobody") {
   const ControlSocket socket(place(), echo);
   CHECK(answer_to("").empty());
   CHECK(answer_to("stat").empty());
-  CHECK(answer_to(std::string(5000, 'x')).rfind("refused: too long a line", 0) == 0);
+  CHECK(answer_to(std::string(5000, 'x')).starts_with("refused: too long a line"));
   CHECK(answer_to(std::string("\0\xff\n", 3)).size() == 9);
   CHECK(ask(place(), "status") == "heard status\n");
 }
@@ -76,7 +61,7 @@ TEST_CASE("a second run does not take the first one's socket, and a dead one's i
   CHECK_THROWS_AS(ask(place(), "status"), StartupError);
   {
     const wire::FileDescriptor dead(::socket(AF_UNIX, SOCK_STREAM, 0));
-    const sockaddr_un address = address_of_place();
+    const sockaddr_un address = tests::address_of(place());
     REQUIRE(::bind(dead.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0);
   }
   const ControlSocket socket(place(), echo);

@@ -8,7 +8,7 @@ namespace jaywalk::tests {
 
 /// A desk, and the loop behind it as far as a test tells.
 struct DeskBench {
-  DeskBench() {
+  explicit DeskBench(const GoalRules& rules = {0.25, 0.05}) : goal_rules(rules) {
     tell([](RunStatus&) {});
   }
   template <class Change>
@@ -17,6 +17,8 @@ struct DeskBench {
     change(status);
     desk.tell(status);
   }
+  /// Takes a goal, which is the loop's then.
+  bool takes(const std::string& goal) { return desk.obey(goal) == "going\n" && desk.latest().has_goal; }
   void latch() {
     tell([](RunStatus& s) { s.latched = true, s.reasons = Reason::kLatched | Reason::kDrive; });
   }
@@ -25,10 +27,11 @@ struct DeskBench {
   }
 
   HandClock clock;
+  GoalRules goal_rules;
   int restarts = 0;
   std::string restart_fails;
   bool bus_answers = true;
-  OperatorDesk desk{clock, {0.25, 0.05}, [this] {
+  OperatorDesk desk{clock, goal_rules, [this] {
                       ++restarts;
                       if (bus_answers) tell([](RunStatus& s) { s.bus.state = CanState::kActive, s.speed_mps = 0.0; });
                       return restart_fails;

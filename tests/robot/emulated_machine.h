@@ -1,30 +1,21 @@
 #pragma once
 // Machine with an emulated robot at its wires, for `jaywalk setup`.
-#include <unistd.h>
-
-#include <fstream>
 #include <memory>
+#include <sstream>
 #include <string>
 #include <vector>
 
 #include "apps/setup/robot_setup.h"
 #include "firmware/robot/robot_devices.h"
-#include "hal/types/errors.h"
-#include "hil/far_end/simulated_robot.h"
-#include "tests/support/catch.h"
+#include "tests/robot/wired_bench.h"
 
 namespace jaywalk {
-
-inline bool says(const std::string& text, const std::string& words) { return text.find(words) != std::string::npos; }
 
 /// A machine at whose wires an emulated robot hangs that is wired like a file of tools/rig/drive.
 class EmulatedMachine final : public Surroundings {
  public:
   /// `twice`: with another scanner like its own at its rear.
-  explicit EmulatedMachine(const std::string& name, bool twice = false)
-      : folder(std::filesystem::temp_directory_path() / ("jaywalk_setup_" + std::to_string(::getpid()))),
-        truth_(wiring(name, twice)),
-        wires(clock, 3) {
+  explicit EmulatedMachine(const std::string& name, bool twice = false) : truth_(wiring(name, twice)), wires(clock, 3) {
     if (truth_.drive.kind == DriveKind::kPioneer)
       board_ = std::make_unique<emulators::ServedBytes>(rig::make_far_wire(truth_.drive.line), clock);
     rig::FarWires far_wires = rig::make_far_wires(truth_, true);
@@ -33,10 +24,10 @@ class EmulatedMachine final : public Surroundings {
         ports.push_back(network->port());
     const rig::SimulatedRobot::Buses places = board_ ? rig::SimulatedRobot::Buses{board_.get(), board_.get()}
                                                      : rig::SimulatedRobot::Buses{&wires.port(1), &wires.port(2)};
-    robot = std::make_unique<rig::SimulatedRobot>(hall(), 3, truth_, places, std::move(far_wires), clock.now());
+    robot = std::make_unique<rig::SimulatedRobot>(tests::empty_hall(), 3, truth_, places, std::move(far_wires),
+                                                  clock.now());
     clock.live = [this] { robot->step(clock.now()); };
   }
-  ~EmulatedMachine() override { std::filesystem::remove_all(folder); }
 
   std::vector<std::string> can_interfaces() override { return {"can0", "vcan0"}; }
   std::unique_ptr<CanBus> open_bus(const std::string& interface) override {
@@ -54,23 +45,14 @@ class EmulatedMachine final : public Surroundings {
   std::vector<std::string> joysticks() override { return {"/dev/input/by-id/usb-Pad-event-joystick"}; }
 
   /// A file with these lines, for `setup --answers`.
-  std::filesystem::path answers(const std::string& text) const {
-    std::ofstream(folder / "answers.toml") << text;
-    return folder / "answers.toml";
-  }
+  std::filesystem::path answers(const std::string& text) const { return scratch.write("answers.toml", text); }
   RobotFile drafted(const std::string& text) {
     SetupAnswers known(answers(text), nullptr, nullptr);
     file_text = draft_robot(*this, known, clock).text();
-    std::ofstream(folder / "robot.toml") << file_text;
-    return load_robot_file(folder / "robot.toml");
-  }
-  static sim::Scenario hall() {
-    sim::Scenario scenario = sim::load_scenario(std::string(JAYWALK_RIG) + "/drive/hall.toml");
-    scenario.wanderers.clear();
-    return scenario;
+    return load_robot_file(scratch.write("robot.toml", file_text));
   }
 
-  std::filesystem::path folder;
+  Scratch scratch;
   std::string file_text;
   rig::HandLivingClock clock;
 
@@ -79,7 +61,7 @@ class EmulatedMachine final : public Surroundings {
   class Lent final : public CanBus {
    public:
     explicit Lent(CanBus& bus) : bus_(bus) {}
-    SendResult send(const CanFrame& frame) noexcept override { return bus_.send(frame); }
+    bool send(const CanFrame& frame) noexcept override { return bus_.send(frame); }
     bool receive(ReceivedFrame& received) noexcept override { return bus_.receive(received); }
     CanHealth health() const noexcept override { return bus_.health(); }
 
@@ -88,10 +70,8 @@ class EmulatedMachine final : public Surroundings {
   };
 
   [[nodiscard]] RobotFile wiring(const std::string& name, bool twice) const {
-    std::filesystem::create_directories(folder);
-    RobotFile file = load_robot_file(std::string(JAYWALK_RIG) + "/drive/" + name + ".toml");
-    if (file.laser.host.empty()) file.laser.device = folder / "scanner";
-    file.drive.line.device = folder / "board";
+    RobotFile file = tests::robot_in(scratch.folder(), tests::rig_file(name));
+    file.drive.line.device = scratch.path("board");
     if (!twice) return file;
     file.other_lasers.push_back(file.laser);
     file.other_lasers[0].device += "_rear";
@@ -108,5 +88,25 @@ class EmulatedMachine final : public Surroundings {
   std::vector<std::uint16_t> ports;
   std::unique_ptr<rig::SimulatedRobot> robot;
 };
+
+/// What a person types at a terminal makes a draft.
+struct TypedSetup {
+  RobotDraft draft;
+  std::string said;  ///< to the person
+};
+inline TypedSetup typed_setup(Surroundings& machine, Clock& clock, const std::string& typed,
+                              const std::optional<std::filesystem::path>& answers = {},
+                              const std::filesystem::path& kept = {}) {
+  std::istringstream person(typed);
+  std::ostringstream said;
+  SetupAnswers known(answers, &person, &said, kept);
+  RobotDraft draft = draft_robot(machine, known, clock);
+  return {std::move(draft), said.str()};
+}
+
+inline void check_holds(const std::string& text, std::initializer_list<const char*> parts) {
+  CAPTURE(text);
+  for (const char* part : parts) CHECK(holds(text, part));
+}
 
 }  // namespace jaywalk

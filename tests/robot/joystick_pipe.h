@@ -22,6 +22,14 @@ class JoystickPipe {
   }
   ~JoystickPipe() { std::filesystem::remove(path); }
   void press(std::uint16_t button, bool pressed = true) { write(EV_KEY, button, pressed ? 1 : 0); }
+  void take_dead_man() { press(BTN_TL, false), press(BTN_TL); }
+  /// Lets the stick go for five ticks, and pushes it ahead.
+  template <class Bench>
+  void push_from_middle(Bench& bench) {
+    push(0);
+    bench.tick(5);
+    push(32767);
+  }
   /// Moves the stick, -32767 to 32767; ahead counts down.
   void push(std::int32_t forward) { write(EV_ABS, ABS_Y, -forward); }
   void write(std::uint16_t type, std::uint16_t code, std::int32_t value) {

@@ -7,9 +7,9 @@
 #include "firmware/recording/map_files.h"
 #include "hal/sim/random.h"
 #include "hal/sim/simulation.h"
-#include "hal/types/errors.h"
 #include "tests/recording/scratch.h"
 #include "tests/support/catch.h"
+#include "tests/support/text.h"
 
 using namespace jaywalk;
 
@@ -29,18 +29,13 @@ LaserScan scan_on(const std::string& map, const Pose2& pose) {
   return simulation.hal().laser.latest();
 }
 
-Pose2 located(const std::string& map, const Pose2& pose) {
-  return located_on(*load_known_map(kMaps + "/" + map + ".yaml", 0.1), scan_on(map, pose), p3dx().laser,
-                    "robot.toml: ");
+std::shared_ptr<const KnownMap> own_map(const std::string& map) {
+  return load_known_map(kMaps + "/" + map + ".yaml", 0.1);
 }
 
-std::string refusal(const std::string& map, const Pose2& pose) {
-  try {
-    static_cast<void>(located(map, pose));
-  } catch (const StartupError& error) {
-    return error.what();
-  }
-  return "found";
+/// Place on `map` of the scan from a pose on the map `seen_on`, by default the same.
+Pose2 located(const std::string& map, const Pose2& pose, const std::string& seen_on = "") {
+  return located_on(*own_map(map), scan_on(seen_on.empty() ? map : seen_on, pose), p3dx().laser, "robot.toml: ");
 }
 
 }  // namespace
@@ -107,27 +102,20 @@ TEST_CASE("points behind a wall do not count: they fit best half a turn off, whe
 
 TEST_CASE("a place that has a twin is refused, and so is a scan of another place, both say what to give") {
   // The hall of crossing.yaml is the same turned by half a turn about (10, 7).
-  const std::string twin = refusal("crossing", {10.0, 7.0, 0.4});
-  CHECK(twin.find("robot.toml: the scan fits at [") == 0);
-  CHECK(twin.find("and nearly as well at [") != std::string::npos);
-  CHECK(twin.find("give start = [x, y, heading]") != std::string::npos);
-  const auto other = load_known_map(kMaps + "/door.yaml", 0.1);
-  std::string said;
-  try {
-    static_cast<void>(located_on(*other, scan_on("map1", {5.0, 20.0, 0.0}), p3dx().laser, "robot.toml: "));
-  } catch (const StartupError& error) {
-    said = error.what();
-  }
-  CHECK(said.find("robot.toml: the scan fits nowhere on the map") == 0);
+  const std::string twin = refusal_of([] { return located("crossing", {10.0, 7.0, 0.4}); });
+  CHECK(twin.starts_with("robot.toml: the scan fits at ["));
+  CHECK(holds(twin, "and nearly as well at ["));
+  CHECK(holds(twin, "give start = [x, y, heading]"));
+  const std::string said = refusal_of([] { return located("door", {5.0, 20.0, 0.0}, "map1"); });
+  CHECK(said.starts_with("robot.toml: the scan fits nowhere on the map"));
 }
 
 TEST_CASE("a room of another building is not taken for one of the map's, though two of three points fit there") {
   for (const char* other : {"map2", "map3"}) {  // map1 and map4 refused it with 0.6, too
-    const auto map = load_known_map(kMaps + "/" + other + ".yaml", 0.1);
     CAPTURE(other);
     for (const Pose2& pose : {Pose2{2.0, 3.0, 1.2}, Pose2{3.0, 2.0, 0.0}, Pose2{10.0, 7.0, 0.4}}) {
       const LaserScan scan = scan_on("crossing", pose);
-      CHECK_THROWS_AS(located_on(*map, scan, p3dx().laser, "robot.toml: "), StartupError);
+      CHECK_THROWS_AS(located_on(*own_map(other), scan, p3dx().laser, "robot.toml: "), StartupError);
     }
   }
 }
@@ -145,7 +133,7 @@ const std::vector<Floor> kFloors{{"map1", {25.0, 25.0}},     {"map2", {25.0, 25.
 struct Tally {
   int right = 0, wrong = 0, refused = 0;
   void add(const std::string& map, const LaserScan& scan, const Pose2& pose) try {
-    const Pose2 at = located_on(*load_known_map(kMaps + "/" + map + ".yaml", 0.1), scan, p3dx().laser, "");
+    const Pose2 at = located_on(*own_map(map), scan, p3dx().laser, "");
     (distance(at.position(), pose.position()) < 0.3 ? right : wrong) += 1;
   } catch (const StartupError&) {
     ++refused;

@@ -45,71 +45,53 @@ PlanRequest request_for(const EvidenceMap& map, double x) {
 
 static TickObserver nobody;
 
-TEST_CASE("a planner in its own thread keeps nobody waiting and plans with the map as it was") {
+TEST_CASE("a planner in its own thread keeps nobody waiting and plans with the map and pedestrians as they were") {
   std::atomic<bool> may{false};
   EvidenceMap map(64, 0.1, {});
   map.add({0, 0}, 7);
   PlannerThread planner(std::make_unique<SlowPlanner>(may), map, nobody);
+  std::array<StandingPedestrian, 2> standing{{{{1.0, 2.0}, 0.25}, {{3.0, 4.0}, 0.25}}};
+  PlanRequest request = request_for(map, 3.0);
+  request.standing = standing;
   const AllocationGuard guard;
-  planner.submit(request_for(map, 3.0));
+  planner.submit(request);
   const auto calls = guard.calls();
   CHECK(calls == 0);
   CHECK(planner.is_busy());
   CHECK(planner.collect().status == PlanStatus::kNone);
   map.add({0, 0}, 20);
+  standing = {};
   may = true;
   while (planner.is_busy()) std::this_thread::yield();
   CHECK(planner.collect().sequence == 1);
-  CHECK(planner.collect().path[0] == Vec2{3.0, 0.0});
-  CHECK(planner.collect().path[1].x == 7.0);
+  const Path path = planner.collect().path;
+  REQUIRE(path.size() == 4);
+  CHECK(path[0] == Vec2{3.0, 0.0});
+  CHECK(path[1].x == 7.0);
+  CHECK(path[2] == Vec2{1.0, 2.0});
+  CHECK(path[3] == Vec2{3.0, 4.0});
   planner.submit(request_for(map, 4.0));
   while (planner.is_busy()) std::this_thread::yield();
   CHECK(planner.collect().sequence == 2);
   CHECK(planner.collect().path[1].x == 27.0);
 }
 
-TEST_CASE("a planner in its own thread plans among those who stood when it was asked") {
-  std::atomic<bool> may{false};
-  const EvidenceMap map(64, 0.1, {});
-  PlannerThread planner(std::make_unique<SlowPlanner>(may), map, nobody);
-  std::array<StandingPedestrian, 2> standing{{{{1.0, 2.0}, 0.25}, {{3.0, 4.0}, 0.25}}};
-  PlanRequest request = request_for(map, 3.0);
-  request.standing = standing;
-  planner.submit(request);
-  standing = {};
-  may = true;
-  while (planner.is_busy()) std::this_thread::yield();
-  const Path& path = planner.collect().path;
-  REQUIRE(path.size() == 4);
-  CHECK(path[2] == Vec2{1.0, 2.0});
-  CHECK(path[3] == Vec2{3.0, 4.0});
-}
-
-TEST_CASE("a held planner shows each plan when the recording has it") {
-  std::atomic<bool> may{true};
-  const EvidenceMap map(64, 0.1, {});
-  TickRecord record;
-  HeldPlanner planner(std::make_unique<SlowPlanner>(may), record);
-  CHECK(planner.is_busy());  // the recording asked for nothing
-  CHECK(planner.collect().status == PlanStatus::kNone);
-  record.plan_asked = true;
-  CHECK_FALSE(planner.is_busy());
-  planner.submit(request_for(map, 3.0));
-  record.plan_asked = false;
-  CHECK(planner.collect().sequence == 0);  // still under way then
-  record.plan_sequence = 1;
-  CHECK(planner.collect().path[0] == Vec2{3.0, 0.0});
-}
-
-TEST_CASE("a held planner of a later part begins to count where the recording does") {
-  std::atomic<bool> may{true};
-  const EvidenceMap map(64, 0.1, {});
-  TickRecord record;
-  record.plan_sequence = 41;
-  HeldPlanner planner(std::make_unique<SlowPlanner>(may), record);
-  CHECK(planner.collect().status == PlanStatus::kNone);
-  planner.submit(request_for(map, 3.0));
-  CHECK(planner.collect().sequence == 0);
-  record.plan_sequence = 42;
-  CHECK(planner.collect().path[0] == Vec2{3.0, 0.0});
+TEST_CASE("a held planner shows each plan when the recording has it, and counts from where a later part begins") {
+  for (const std::uint32_t before : {0U, 41U}) {
+    CAPTURE(before);
+    std::atomic<bool> may{true};
+    const EvidenceMap map(64, 0.1, {});
+    TickRecord record;
+    record.plan_sequence = before;
+    HeldPlanner planner(std::make_unique<SlowPlanner>(may), record);
+    CHECK(planner.is_busy());  // the recording asked for nothing
+    CHECK(planner.collect().status == PlanStatus::kNone);
+    record.plan_asked = true;
+    CHECK_FALSE(planner.is_busy());
+    planner.submit(request_for(map, 3.0));
+    record.plan_asked = false;
+    CHECK(planner.collect().sequence == 0);  // still under way then
+    record.plan_sequence = before + 1;
+    CHECK(planner.collect().path[0] == Vec2{3.0, 0.0});
+  }
 }

@@ -12,8 +12,7 @@
 #include "hal/types/errors.h"
 #include "hil/emulators/byte_server.h"
 #include "hil/emulators/network_scanners.h"
-#include "hil/far_end/simulated_robot.h"
-#include "tests/support/catch.h"
+#include "tests/robot/wired_bench.h"
 
 using namespace jaywalk;
 
@@ -21,7 +20,7 @@ namespace {
 
 /// A robot whose bus is not there, and whose scanner's port belongs to nobody.
 RobotFile nothing_connected() {
-  RobotFile file = load_robot_file(std::string(JAYWALK_RIG) + "/drive/robot.toml");
+  RobotFile file = load_robot_file(tests::rig_file("robot"));
   file.drive.can = "nocan0";
   file.laser.port = emulators::TcpServer(0).port();  // free again
   file.laser.first_scan_limit = std::chrono::milliseconds(100);
@@ -32,17 +31,20 @@ std::filesystem::path socket_path() {
   return std::filesystem::temp_directory_path() / ("jaywalk_preflight_" + std::to_string(::getpid()));
 }
 
-const CheckedPart* find(const std::vector<CheckedPart>& parts, const std::string& name) {
-  for (const CheckedPart& part : parts) {
-    if (part.part == name) return &part;
-  }
-  return nullptr;
+CheckedPart find(const std::vector<CheckedPart>& parts, const std::string& name) {
+  const auto part = std::ranges::find(parts, name, &CheckedPart::part);
+  REQUIRE(part != parts.end());
+  return *part;
+}
+
+std::vector<CheckedPart> checked(const RobotFile& file) {
+  SteadyClock clock;
+  return preflight(file, socket_path(), clock);
 }
 
 }  // namespace
 
 TEST_CASE("each of two scanners is told by its name, with what to do about one of its kind") {
-  SteadyClock clock;
   RobotFile file = nothing_connected();
   RobotModel& model = file.setup.model;
   REQUIRE(model.other_lasers.push_back(model.laser));
@@ -51,44 +53,35 @@ TEST_CASE("each of two scanners is told by its name, with what to do about one o
   file.other_lasers.push_back(file.laser);
   file.laser.kind = ScannerKind::kDds;
   file.laser.topic = "/scan_of_nobody";
-  const std::vector<CheckedPart> parts = preflight(file, socket_path(), clock);
-  REQUIRE(find(parts, "front scanner") != nullptr);
-  CHECK_THAT(find(parts, "front scanner")->said, Catch::Contains("; start the robot's ROS 2 nodes"));
-  REQUIRE(find(parts, "rear scanner") != nullptr);
-  CHECK_THAT(find(parts, "rear scanner")->said, Catch::Contains(": no scan: scanner unreachable; see that"));
+  const std::vector<CheckedPart> parts = checked(file);
+  CHECK(holds(find(parts, "front scanner").said, "; start the robot's ROS 2 nodes"));
+  CHECK(holds(find(parts, "rear scanner").said, ": no scan: scanner unreachable; see that"));
 }
 
 TEST_CASE("each part that is missing is told with what to do about it, and the others all the same") {
-  SteadyClock clock;
   RobotFile file = nothing_connected();
-  file.panel = PanelWiring{.joystick = {.path = "/dev/input/by-id/none"}};
-  const std::vector<CheckedPart> parts = preflight(file, socket_path(), clock);
+  file.panel = panel::JoystickSetup{.path = "/dev/input/by-id/none"};
+  const std::vector<CheckedPart> parts = checked(file);
   REQUIRE(parts.size() == 8);  // no drives where there is no bus
-  REQUIRE(find(parts, "clock") != nullptr);
-  REQUIRE(find(parts, "control socket") != nullptr);
-  CHECK(find(parts, "control socket")->is_well);
-  REQUIRE(find(parts, "nocan0") != nullptr);
-  CHECK_FALSE(find(parts, "nocan0")->is_well);
-  CHECK(find(parts, "nocan0")->said ==
+  static_cast<void>(find(parts, "clock"));
+  CHECK(find(parts, "control socket").is_well);
+  CHECK_FALSE(find(parts, "nocan0").is_well);
+  CHECK(find(parts, "nocan0").said ==
         "no such interface; load its driver, then: ip link set nocan0 up type can bitrate 500000");
-  REQUIRE(find(parts, "scanner") != nullptr);
-  CHECK_FALSE(find(parts, "scanner")->is_well);
-  CHECK(find(parts, "scanner")->said.find(": no scan: scanner unreachable; see that") != std::string::npos);
-  REQUIRE(find(parts, "joystick") != nullptr);
-  CHECK_FALSE(find(parts, "joystick")->is_well);
+  CHECK_FALSE(find(parts, "scanner").is_well);
+  CHECK(holds(find(parts, "scanner").said, ": no scan: scanner unreachable; see that"));
+  CHECK_FALSE(find(parts, "joystick").is_well);
   CHECK_FALSE(std::filesystem::exists(socket_path()));
 }
 
 TEST_CASE("what is no joystick, or has not the stop button, is refused by check and run") {
-  SteadyClock clock;
   RobotFile file = nothing_connected();
   const std::string pipe = std::filesystem::temp_directory_path() / ("jaywalk_stop_" + std::to_string(::getpid()));
   REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
-  file.panel = PanelWiring{.joystick = {.path = pipe}};
-  const std::vector<CheckedPart> parts = preflight(file, socket_path(), clock);
-  REQUIRE(find(parts, "joystick") != nullptr);
-  CHECK_FALSE(find(parts, "joystick")->is_well);
-  CHECK(find(parts, "joystick")->said.rfind(pipe + ": is no input device", 0) == 0);
+  file.panel = panel::JoystickSetup{.path = pipe};
+  const std::vector<CheckedPart> parts = checked(file);
+  CHECK_FALSE(find(parts, "joystick").is_well);
+  CHECK(find(parts, "joystick").said.starts_with(pipe + ": is no input device"));
   CHECK_THROWS_AS(require_joystick(*file.panel), StartupError);
   std::filesystem::remove(pipe);
   CHECK_NOTHROW(require_joystick(*file.panel));  // it may be plugged in later: until then it is a stop
@@ -99,12 +92,10 @@ TEST_CASE("an interface that is no CAN bus is told from one") {
   CHECK(loopback.exists);
   CHECK_FALSE(loopback.is_can);
   CHECK_FALSE(link_facts("nocan0").exists);
-  SteadyClock clock;
   RobotFile file = nothing_connected();
   file.drive.can = "lo";
-  const std::vector<CheckedPart> parts = preflight(file, socket_path(), clock);
-  REQUIRE(find(parts, "lo") != nullptr);
-  CHECK(find(parts, "lo")->said.rfind("is no CAN interface", 0) == 0);
+  const std::vector<CheckedPart> parts = checked(file);
+  CHECK(find(parts, "lo").said.starts_with("is no CAN interface"));
 }
 
 namespace {
@@ -121,11 +112,9 @@ std::string said_of_scanner(float nearest_m, const std::function<void(RobotFile&
   });
   rig::RealLivingClock clock;
   clock.live = [&] { scanner.step(clock.now()); };
-  try {
-    return check_scanner(file, clock);
-  } catch (const StartupError& error) {
-    return error.what();
-  }
+  std::string said;
+  const std::string refusal = refusal_of([&] { said = check_scanner(file, clock); });
+  return said + refusal;
 }
 
 }  // namespace
@@ -136,48 +125,43 @@ TEST_CASE("a scanner whose fan is not the file's, by a step or more, is told") {
       file.setup.model.laser.fov_rad += steps * file.setup.model.laser.fov_rad / 810.0;
     });
     CAPTURE(steps, said);
-    CHECK((said.find("correct [laser] beams and fov_deg") != std::string::npos) == (std::fabs(steps) > 0.5));
+    CHECK(holds(said, "correct [laser] beams and fov_deg") == (std::fabs(steps) > 0.5));
   }
 }
 
 TEST_CASE("a scanner that sees the robot's own body is told, for the robot would never drive") {
   const std::string on_it = said_of_scanner(0.10F);
-  CHECK(on_it.find("3 of the beams end within the robot's own outline; take away what is before it") !=
-        std::string::npos);
-  CHECK(on_it.find("[[laser.blanked]] from_deg = -135.3, to_deg = -134.0") != std::string::npos);
+  CHECK(holds(on_it, "3 of the beams end within the robot's own outline; take away what is before it"));
+  CHECK(holds(on_it, "[[laser.blanked]] from_deg = -135.3, to_deg = -134.0"));
   Blanking as_told;
   (void)as_told.push_back({-135.3 * kPi / 180.0, -134.0 * kPi / 180.0});
-  CHECK(said_of_scanner(0.10F, [&](RobotFile& file) { file.setup.model.laser.blanked = as_told; }).find("outline") ==
-        std::string::npos);
+  CHECK_FALSE(
+      holds(said_of_scanner(0.10F, [&](RobotFile& file) { file.setup.model.laser.blanked = as_told; }), "outline"));
   const std::string before_it = said_of_scanner(0.60F);
-  CHECK(before_it.find("811 beams") != std::string::npos);  // a scan was looked at
-  CHECK(before_it.find("outline") == std::string::npos);
+  CHECK(holds(before_it, "811 beams"));  // a scan was looked at
+  CHECK_FALSE(holds(before_it, "outline"));
 }
 
 TEST_CASE("who would plan is tried: a GPU that was asked for and is not there is a failure, otherwise the CPU plans") {
-  SteadyClock clock;
   RobotFile file = nothing_connected();
   const auto planner = [&](Backend backend) {
     file.setup.backend = backend;
     file.setup.device = 255;  // no machine has so many
-    const std::vector<CheckedPart> parts = preflight(file, socket_path(), clock);
-    const CheckedPart* const part = find(parts, "planner");
-    return part == nullptr ? CheckedPart{} : *part;
+    return find(checked(file), "planner");
   };
   CHECK(planner(Backend::kCpu).is_well);
   CHECK(planner(Backend::kCpu).said == "plans on the CPU");
   CHECK(planner(Backend::kAuto).is_well);
-  CHECK(planner(Backend::kAuto).said.find("plans on the CPU (cuda: no") == 0);
+  CHECK(planner(Backend::kAuto).said.starts_with("plans on the CPU (cuda: no"));
   CHECK_FALSE(planner(Backend::kCuda).is_well);
-  CHECK(planner(Backend::kCuda).said.find("--backend cuda: no") == 0);
+  CHECK(planner(Backend::kCuda).said.starts_with("--backend cuda: no"));
 }
 
 TEST_CASE("the devices of a robot that runs are left alone") {
-  SteadyClock clock;
   const ControlSocket run(socket_path(), [](std::string_view) { return std::string("state: driving\n"); });
-  const std::vector<CheckedPart> parts = preflight(nothing_connected(), socket_path(), clock);
+  const std::vector<CheckedPart> parts = checked(nothing_connected());
   REQUIRE(parts.size() == 4);
   CHECK(parts.back().part == "control socket");
   CHECK_FALSE(parts.back().is_well);
-  CHECK(parts.back().said.find("another run listens there") != std::string::npos);
+  CHECK(holds(parts.back().said, "another run listens there"));
 }

@@ -32,8 +32,9 @@ class SlowDrive final : public WiredDrive {
 };
 
 struct Bench {
-  bool passes(bool pressed) {
+  bool passes(bool pressed, bool stop = false) {
     panel.input.reset = pressed;
+    panel.input.emergency_stop = stop;
     return gate.latest().reset;
   }
   HeldPanel panel;
@@ -84,14 +85,10 @@ TEST_CASE("a stop while the proof runs takes the reset that waits, and so does o
   Bench bench;
   bench.drive.proved = false;
   CHECK_FALSE(bench.passes(true));
-  bench.panel.input.emergency_stop = true;
-  CHECK_FALSE(bench.passes(false));
-  bench.panel.input.emergency_stop = false;
+  CHECK_FALSE(bench.passes(false, true));
   bench.drive.proved = true;
   CHECK_FALSE(bench.passes(false));
-  bench.panel.input.emergency_stop = true;
-  CHECK_FALSE(bench.passes(true));
-  bench.panel.input.emergency_stop = false;
+  CHECK_FALSE(bench.passes(true, true));
   CHECK_FALSE(bench.passes(true));
   CHECK(bench.drive.resets == 1);
 }

@@ -30,15 +30,18 @@ class SafetyCore {
   // What may happen.
   /// Another one each time: one that is repeated is void after a stop.
   void give_goal() { ask("goto 50 0." + std::to_string(++goals_)); }
-  void drop_goal() { ask("stop"); }
-  void stop_now() { ask("stop now"); }
-  void press_stop() { button_.held = true; }
-  void release_stop() { button_.held = false; }
-  void press_reset() { ask("reset"); }
+  void hold_stop(bool held) { button_.held = held; }
+  /// An order at the desk.
+  void ask(const std::string& line) {
+    const std::string answer = desk_.obey(line);
+    if (line.starts_with("stop")) note_stop(), stopping_ = true;
+    if (answer == "going\n" && stopping_) accuse("a goal is taken on the way to rest");
+    if (answer == "reset\n") reset_given_ = proof_asked_ = true;
+    if (answer == "going\n") goal_given_ = true;
+  }
   /// A goal between the judgement that latches and its being told, and a reset before the tick after.
   void ask_as_it_latches() { asks_as_it_latches_ = true; }
-  void lose_scans() { scans_come_ = false; }
-  void find_scans() { scans_come_ = true; }
+  void bring_scans(bool come) { scans_come_ = come; }
   void tell_network(std::uint8_t command) {
     CanFrame frame;
     frame.size = 2;
@@ -48,7 +51,7 @@ class SafetyCore {
   void cut_power() { right_.restart(); }
   void pull_cable() { right_.pull_cable(), plugged_ = false; }
   void plug_cable() { right_.plug_cable(), plugged_ = true; }
-  void hang_drive() { left_.hang(), hangs_ = true; }
+  void hang_drive() { left_.stick(), hangs_ = true; }
   void break_drive() { left_.raise_fault(0x2310); }
   void ticks(int count) {
     for (int k = 0; k < count; ++k) tick();
@@ -57,7 +60,7 @@ class SafetyCore {
   /// What tells one state from another; continuous quantities are left to the rules.
   [[nodiscard]] std::string state() const {
     std::ostringstream out;
-    out << row_of(supervisor_.mode()).name << ' ' << name(wheels_.trouble) << ' ' << name(wheels_.stop) << ' '
+    out << static_cast<int>(supervisor_.mode()) << ' ' << name(wheels_.trouble) << ' ' << name(wheels_.stop) << ' '
         << base_.is_proved() << base_.is_enabled() << ' ' << left_.state_name() << ' ' << right_.state_name() << ' '
         << (left_.velocity() != 0.0) << (right_.velocity() != 0.0) << ' ' << has_goal_ << button_.held << scans_come_
         << plugged_ << hangs_ << reset_given_ << goal_given_ << proof_owed_ << asks_as_it_latches_ << stopping_;
@@ -135,13 +138,6 @@ class SafetyCore {
     gate_.note_turning(status_.speed_mps > kAtRest_mps);
     desk_.tell(status_);
   }
-  void ask(const std::string& line) {
-    const std::string answer = desk_.obey(line);
-    if (line.starts_with("stop")) note_stop(), stopping_ = true;
-    if (answer == "going\n" && stopping_) accuse("a goal is taken on the way to rest");
-    if (answer == "reset\n") reset_given_ = proof_asked_ = true;
-    if (answer == "going\n") goal_given_ = true;
-  }
   void note_stop() {
     goal_given_ = false;
     if (supervisor_.mode() == Mode::kLatched) reset_given_ = false;
@@ -217,7 +213,7 @@ inline void SafetyCore::hold_against_rules(Time now) {
   const bool was_proved = proofs_[0] > 0 && proofs_[1] > 0 && base_.is_proved();
   if (proof_owed_ && was_proved) proof_owed_ = false;
   // 1: setpoints other than zero leave in three modes, and fall while latched.
-  const bool may_move = row_of(mode).wire == WireOrder::kSetpoints || row_of(mode).wire == WireOrder::kRamp;
+  const bool may_move = mode != Mode::kStandby && mode != Mode::kArmed;
   if (target_ != 0 && !may_move) accuse("a setpoint left");
   if (mode == Mode::kLatched && target_ > target_before_ && before_ == Mode::kLatched) accuse("latched, and faster");
   // 2: from a fault to motion there is a reset and, where the drives were in trouble, their whole proof.

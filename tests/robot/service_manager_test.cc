@@ -1,13 +1,10 @@
 #include "firmware/robot/service_manager.h"
 
-#include <sys/socket.h>
-#include <sys/un.h>
-
-#include <cstring>
 #include <string>
 
 #include "drivers/wire/file_descriptor.h"
 #include "tests/recording/scratch.h"
+#include "tests/robot/socket_address.h"
 #include "tests/support/catch.h"
 
 namespace jaywalk {
@@ -17,9 +14,7 @@ namespace {
 class Listener {
  public:
   explicit Listener(const std::string& path) : socket_(::socket(AF_UNIX, SOCK_DGRAM, 0)) {
-    sockaddr_un at{};
-    at.sun_family = AF_UNIX;
-    std::strncpy(at.sun_path, path.c_str(), sizeof at.sun_path - 1);
+    const sockaddr_un at = tests::address_of(path);
     REQUIRE(::bind(socket_.get(), reinterpret_cast<const sockaddr*>(&at), sizeof at) == 0);
   }
   /// The next message; empty where none has come.

@@ -1,9 +1,5 @@
 #pragma once
 // A folder with one file of each kind, and a parser for each.
-#include <unistd.h>
-
-#include <filesystem>
-#include <fstream>
 #include <functional>
 #include <string>
 #include <vector>
@@ -11,6 +7,7 @@
 #include "firmware/robot/robot_file.h"
 #include "hal/robot_model_file.h"
 #include "hal/sim/scenario.h"
+#include "tests/recording/scratch.h"
 #include "tests/robot/whole_settings.h"
 
 namespace jaywalk {
@@ -24,21 +21,19 @@ struct SettingsKind {
 class SettingsBench {
  public:
   SettingsBench() {
-    std::filesystem::create_directories(folder_);
-    std::ofstream(folder_ / "posts.txt") << "-8 -8 0.2\n8 -8 0.2\n8 8 0.2\n-8 8 0.2\n";
-    std::ofstream(folder_ / "hall.pgm") << "P5\n1 1\n255\n\xFE";
-    std::ofstream(folder_ / "hall.yaml") << "image: hall.pgm\nresolution: 0.1\norigin: [0.0, 0.0, 0.0]\nnegate: 0\n"
-                                            "occupied_thresh: 0.65\nfree_thresh: 0.196\n";
-    std::ofstream(folder_ / "stick.csv") << "t_s,forward,left\n0,1,0\n";
-    std::ofstream(folder_ / "rows.csv") << "t_s,id,x_m,y_m\n0,1,0,4\n5,1,1,4\n";
+    folder_.write("posts.txt", "-8 -8 0.2\n8 -8 0.2\n8 8 0.2\n-8 8 0.2\n");
+    folder_.write("hall.pgm", "P5\n1 1\n255\n\xFE");
+    folder_.write("hall.yaml",
+                  "image: hall.pgm\nresolution: 0.1\norigin: [0.0, 0.0, 0.0]\nnegate: 0\n"
+                  "occupied_thresh: 0.65\nfree_thresh: 0.196\n");
+    folder_.write("stick.csv", "t_s,forward,left\n0,1,0\n");
+    folder_.write("rows.csv", "t_s,id,x_m,y_m\n0,1,0,4\n5,1,1,4\n");
   }
-  ~SettingsBench() { std::filesystem::remove_all(folder_); }
 
   [[nodiscard]] std::vector<SettingsKind> kinds() const {
-    std::vector<std::string> scenarios;
-    scenarios.push_back(scenario("yaml", "kind = \"straight\"\nforward = 0.9"));
-    scenarios.push_back(scenario("aria", "kind = \"to_goal\"\nforward = 0.9"));
-    scenarios.push_back(scenario("cylinders", "kind = \"table\"\nfile = \"stick.csv\""));
+    const std::vector<std::string> scenarios{scenario("yaml", "kind = \"straight\"\nforward = 0.9"),
+                                             scenario("aria", "kind = \"to_goal\"\nforward = 0.9"),
+                                             scenario("cylinders", "kind = \"table\"\nfile = \"stick.csv\"")};
     return {{robot_file_keys(),
              [](const auto& f) { static_cast<void>(load_robot_file(f)); },
              {kWholeRobots.begin(), kWholeRobots.end()}},
@@ -46,10 +41,7 @@ class SettingsBench {
             {sim::scenario_keys(), [](const auto& f) { static_cast<void>(sim::load_scenario(f)); }, scenarios}};
   }
   /// The file that holds `text` until the next call.
-  [[nodiscard]] std::filesystem::path file(const std::string& text) const {
-    std::ofstream(folder_ / "it.toml", std::ios::binary) << text;
-    return folder_ / "it.toml";
-  }
+  [[nodiscard]] std::filesystem::path file(const std::string& text) const { return folder_.write("it.toml", text); }
 
  private:
   [[nodiscard]] static std::string scenario(const std::string& map, const std::string& stick) {
@@ -59,8 +51,7 @@ class SettingsBench {
     return text.replace(text.find("ROWS"), 4, "rows.csv");
   }
 
-  std::filesystem::path folder_ =
-      std::filesystem::temp_directory_path() / ("jaywalk_settings_" + std::to_string(::getpid()));
+  Scratch folder_;
 };
 
 }  // namespace jaywalk

@@ -1,4 +1,5 @@
 // `jaywalk setup` on emulated robots: drives on an in-process bus, the scanner behind a real port or pseudo terminal.
+// And on a machine to which nothing is connected: what a person knows.
 #include <array>
 #include <fstream>
 #include <sstream>
@@ -40,29 +41,23 @@ std::string with_port(const KnownOf& of, const EmulatedMachine& machine) {
   return text;
 }
 
+std::string scanner_at(const EmulatedMachine& machine) {
+  return "[laser]\nhost = \"127.0.0.1\"\nport = " + std::to_string(machine.ports[0]) + "\n";
+}
+
 /// Whether the robot reaches a place 2 m on with this file, both ends in this process, time moved on by hand.
-bool drives_with(RobotFile file, const std::filesystem::path& folder) {
-  file.setup.backend = Backend::kCpu;
-  rig::HandLivingClock clock;
-  rig::InProcessRobot robot(file, EmulatedMachine::hall(), 3, clock, {folder / "run"});
-  clock.live = [&] {
-    robot.step_far_end();
-    for (const auto& laser : robot.lasers()) laser->step();
-  };
-  for (const auto& laser : robot.lasers()) {
-    while (laser->latest().sequence == 0 && clock.now() < Time{5s}) clock.sleep_until(clock.now() + 1ms);
-  }
-  static_cast<void>(robot.drive().arm());
-  bool going = false;
-  for (Time due = clock.now(), end = due + 40s; due < end;) {
-    clock.sleep_until(due += 20ms);
-    robot.loop().tick(due);
-    robot.runner().drain();
-    while (robot.loop().traces().front() != nullptr) robot.loop().traces().pop();
-    going = going || says(robot.desk().obey("goto 3.5 4.5"), "going");  // refused before the first ticks
-    if (norm(robot.far_end().truth().map_from_robot.position() - Vec2{3.5, 4.5}) < 0.3) return true;
-  }
-  return false;
+bool drives_with(const RobotFile& drafted) {
+  tests::LiveBench bench(
+      [&](const Scratch&) {
+        RobotFile file = drafted;
+        file.setup.backend = Backend::kCpu;
+        return file;
+      },
+      [](const RobotFile&) { return tests::empty_hall(); });
+  static_cast<void>(bench.arm());
+  bench.tick(25);
+  bench.go(0, "goto 3.5 4.5");
+  return bench.tick_until(2000, [&] { return distance(bench.truth().position(), {3.5, 4.5}) < 0.3; });
 }
 
 }  // namespace
@@ -76,14 +71,14 @@ TEST_CASE("setup drafts a file for each kind of drive which checks and drives") 
     CHECK(file.drive.kind == of.kind);
     CHECK(file.drive.can == "vcan0");
     CHECK_FALSE(file.panel);  // a stick that nobody wished for
-    CHECK(says(machine.file_text, "# joystick /dev/input/by-id/usb-Pad-event-joystick"));
+    CHECK(holds(machine.file_text, "# joystick /dev/input/by-id/usb-Pad-event-joystick"));
     CHECK(file.setup.model.laser.beams == of.beams);
     CHECK_THAT(file.setup.model.laser.fov_rad * 180.0 / kPi, Catch::Matchers::WithinAbs(of.fov_deg, 0.3));
     CHECK(file.setup.model.laser.rate_hz == of.rate_hz);
     for (const std::size_t side : {0U, 1U})
       CHECK_FALSE(make_drive(file.drive, machine.wires.port(0), machine.clock)->inspect(side).empty());
     CHECK(machine.robot->rim_speed() == 0.0);
-    CHECK(drives_with(file, machine.folder));
+    CHECK(drives_with(file));
   }
 }
 
@@ -114,7 +109,7 @@ TEST_CASE("setup drafts each of two scanners with what it found of it, and the r
   CHECK(rear.robot_from_laser == Pose2{-0.2, 0.0, 3.14159});
   CHECK(file.setup.model.laser.blanked.empty());
   CHECK(rear.blanked.size() == 1);
-  CHECK(drives_with(file, machine.folder));
+  CHECK(drives_with(file));
 }
 
 TEST_CASE("where the second scanner is mounted cannot be guessed") {
@@ -124,16 +119,11 @@ TEST_CASE("where the second scanner is mounted cannot be guessed") {
 
 TEST_CASE("at a terminal a further scanner that answers is asked for") {
   EmulatedMachine machine("vesc_ld19", true);
-  std::istringstream person("p3dx\n\n\n50\n\n\n2\n\nyes\n[-0.2, 0, 3.14]\nno\n");
-  std::ostringstream said;
-  SetupAnswers known(std::nullopt, &person, &said);
-  const std::string text = draft_robot(machine, known, machine.clock).text();
-  CAPTURE(text, said.str());
-  CHECK(says(said.str(), "Has the robot a further scanner? [yes/no] laser 2.mount: "));
+  const TypedSetup setup = typed_setup(machine, machine.clock, "p3dx\n\n\n50\n\n\n2\n\nyes\n[-0.2, 0, 3.14]\nno\n");
+  check_holds(setup.said, {"Has the robot a further scanner? [yes/no] laser 2.mount: "});
+  const std::string text = setup.draft.text();
   CHECK(text.find("scanner_rear\"") < text.find("scanner\""));  // in the order in which they were chosen
-  CHECK(says(text, "[[laser]]\n"));
-  CHECK(says(text, "mount = [0.0, 0.0, 0.0] "));
-  CHECK(says(text, "mount = [-0.2, 0, 3.14] "));
+  check_holds(text, {"[[laser]]\n", "mount = [0.0, 0.0, 0.0] ", "mount = [-0.2, 0, 3.14] "});
 }
 
 TEST_CASE("CiA 402 drives are found by their profile and named by their identity") {
@@ -143,8 +133,7 @@ TEST_CASE("CiA 402 drives are found by their profile and named by their identity
   REQUIRE(drives.nodes.size() == 2);
   CHECK(int{drives.nodes[0].node} == 2);
   CHECK(int{drives.nodes[1].node} == 3);
-  CHECK(says(drives.nodes[0].said, "vendor "));
-  CHECK(says(drives.nodes[0].said, "serial number "));
+  check_holds(drives.nodes[0].said, {"vendor ", "serial number "});
 }
 
 TEST_CASE("nothing is said on a bus where an ODrive speaks") {
@@ -161,70 +150,44 @@ TEST_CASE("nothing is said on a bus where an ODrive speaks") {
 TEST_CASE("what cannot be seen and is not answered is named, with what it means") {
   EmulatedMachine machine("odrive_hokuyo");
   SetupAnswers known(machine.answers("model = \"p3dx\"\n[laser]\nhost = \"127.0.0.1\"\n"), nullptr, nullptr);
-  try {
-    static_cast<void>(draft_robot(machine, known, machine.clock));
-    FAIL("it was drafted");
-  } catch (const StartupError& error) {
-    CAPTURE(error.what());
-    CHECK(says(error.what(), "setup: drive.motor_turns_per_wheel_turn cannot be seen: the gear; put it into "));
-  }
+  check_holds(refusal_of([&] { return draft_robot(machine, known, machine.clock); }),
+              {"setup: drive.motor_turns_per_wheel_turn cannot be seen: the gear; put it into "});
 }
 
 TEST_CASE("an answer that ROBOT.toml does not know, or that is out of its range, is refused with its line") {
   EmulatedMachine machine("odrive_hokuyo");
   const std::string well = with_port(kRobots[1], machine);
-  const auto refused_as = [&](const std::string& text) {
-    try {
-      SetupAnswers known(machine.answers(text), nullptr, nullptr);
-      static_cast<void>(draft_robot(machine, known, machine.clock));
-    } catch (const StartupError& error) {
-      return std::string(error.what());
-    }
-    return std::string("it was drafted");
-  };
-  CHECK(says(refused_as(well + "colour = 3\n"), "answers.toml:9: drive.colour is not a known key"));
-  // Before anything that it would have told is missed.
-  CHECK(says(
-      refused_as("model = \"p3dx\"\n[drive]\nmotor_turns_per_weel_turn = 10\n"),
-      "answers.toml:3: drive.motor_turns_per_weel_turn is not a known key; did you mean motor_turns_per_wheel_turn?"));
-  CHECK(says(refused_as("[laser]\nhots = \"here\"\n"),
-             "answers.toml:2: laser.hots is not a known key; did you mean host?"));
-  CHECK(says(refused_as("[drives]\n"), "answers.toml:1: drives is not a known key; did you mean drive?"));
-  CHECK(says(refused_as(well + "left_node = 500\n"), "answers.toml:9: drive.left_node is 500; choose a value from"));
-  CHECK(says(refused_as(well + "kind = \"vesc\"\n"), "drive.kind is answered as vesc, and vcan0 has odrive"));
-  CHECK(says(refused_as(well + "[[places]]\nat = [1, 2]\nplan = 3\n"), "places.plan is not a known key"));
+  const std::pair<std::string, const char*> refused[] = {
+      {well + "colour = 3\n", "answers.toml:9: drive.colour is not a known key"},
+      // Before anything that it would have told is missed.
+      {"model = \"p3dx\"\n[drive]\nmotor_turns_per_weel_turn = 10\n",
+       "answers.toml:3: drive.motor_turns_per_weel_turn is not a known key; did you mean motor_turns_per_wheel_turn?"},
+      {"[laser]\nhots = \"here\"\n", "answers.toml:2: laser.hots is not a known key; did you mean host?"},
+      {"[drives]\n", "answers.toml:1: drives is not a known key; did you mean drive?"},
+      {well + "left_node = 500\n", "answers.toml:9: drive.left_node is 500; choose a value from"},
+      {well + "kind = \"vesc\"\n", "drive.kind is answered as vesc, and vcan0 has odrive"},
+      {well + "[[places]]\nat = [1, 2]\nplan = 3\n", "places.plan is not a known key"}};
+  for (const auto& [text, complaint] : refused)
+    check_holds(refusal_of([&] { return machine.drafted(text); }), {complaint});
 }
 
 TEST_CASE("at a terminal what cannot be seen is asked, what is nonsense again, and a return takes the suggestion") {
   EmulatedMachine machine("odrive_hokuyo");
-  std::istringstream person("p3dx\n\n4\nmany\n10\n\n\n[0.1, 0, 0]\nyes\n\n");
-  std::ostringstream said;
-  const std::string port = "[laser]\nhost = \"127.0.0.1\"\nport = " + std::to_string(machine.ports[0]) + "\n";
-  SetupAnswers known(machine.answers(port), &person, &said);
-  const std::string text = draft_robot(machine, known, machine.clock).text();
-  CAPTURE(text, said.str());
-  CHECK(says(text, "model = \"p3dx\""));
-  CHECK(says(text, "left_node = 3 "));
-  CHECK(says(text, "right_node = 4 "));
-  CHECK(says(text, "motor_turns_per_wheel_turn = 10 "));
-  CHECK(says(text, "right_reversed = true "));
-  CHECK(says(text, "mount = [0.1, 0, 0] "));
-  CHECK(says(text, "joystick = \"/dev/input/by-id/usb-Pad-event-joystick\""));
-  CHECK(says(said.str(), "drive.motor_turns_per_wheel_turn: the gear (0.1 to 1000): not one of these"));
+  const TypedSetup setup = typed_setup(machine, machine.clock, "p3dx\n\n4\nmany\n10\n\n\n[0.1, 0, 0]\nyes\n\n",
+                                       machine.answers(scanner_at(machine)));
+  check_holds(setup.draft.text(), {"model = \"p3dx\"", "left_node = 3 ", "right_node = 4 ",
+                                   "motor_turns_per_wheel_turn = 10 ", "right_reversed = true ", "mount = [0.1, 0, 0] ",
+                                   "joystick = \"/dev/input/by-id/usb-Pad-event-joystick\""});
+  check_holds(setup.said, {"drive.motor_turns_per_wheel_turn: the gear (0.1 to 1000): not one of these"});
 }
 
 TEST_CASE("where no model is named at a terminal, the robot is measured, and a model file is written for it") {
   EmulatedMachine machine("odrive_hokuyo");
-  std::istringstream person("\n0.3\n0.28\n0.25\n0.1\n0.45\n12\n\n4\n10\n\n\n[0.1, 0, 0]\nyes\n\n");
-  std::ostringstream said;
-  const std::string port = "[laser]\nhost = \"127.0.0.1\"\nport = " + std::to_string(machine.ports[0]) + "\n";
-  SetupAnswers known(machine.answers(port), &person, &said);
-  const RobotDraft draft = draft_robot(machine, known, machine.clock);
-  CAPTURE(draft.model(), said.str());
-  const std::filesystem::path file = std::filesystem::temp_directory_path() / "measured_model.toml";
-  std::ofstream(file) << draft.model();
-  const RobotModel model = load_robot_model(file);
-  std::filesystem::remove(file);
+  const TypedSetup setup =
+      typed_setup(machine, machine.clock, "\n0.3\n0.28\n0.25\n0.1\n0.45\n12\n\n4\n10\n\n\n[0.1, 0, 0]\nyes\n\n",
+                  machine.answers(scanner_at(machine)));
+  CAPTURE(setup.draft.model(), setup.said);
+  const RobotModel model = load_robot_model(machine.scratch.write("measured_model.toml", setup.draft.model()));
   CHECK(model.footprint.rear_m == 0.28);
   CHECK(model.drive.track_width_m == 0.45);
   CHECK(model.drive.max_wheel_speed_radps == 12.0);
@@ -245,4 +208,72 @@ TEST_CASE("what the answers say besides is taken over whole") {
   CHECK_FALSE(file.realtime.required);
   REQUIRE(file.places.size() == 1);
   CHECK(file.places[0].name == "hall");
+}
+
+namespace {
+
+/// Nothing is connected, and there is no CAN.
+class BareMachine final : public Surroundings {
+ public:
+  std::vector<std::string> can_interfaces() override { return {}; }
+  std::unique_ptr<CanBus> open_bus(const std::string& interface) override {
+    throw StartupError(interface + ": no such interface", "none");
+  }
+  std::vector<std::string> serial_lines() override { return {}; }
+  std::vector<std::string> hosts() override { return {}; }
+  std::vector<std::string> joysticks() override { return {}; }
+};
+
+}  // namespace
+
+TEST_CASE("without CAN and scanner a file is written from what a person knows, who is told first what was found") {
+  BareMachine machine;
+  rig::HandLivingClock clock;
+  const TypedSetup setup =
+      typed_setup(machine, clock, "p4dx\np3dx\n\n\n2\n3\n76600\n\n\nsick-cola-b\n127.0.0.1\n9\n\n");
+  CHECK(setup.said.starts_with("Found: no drives: no CAN interface\nFound: no scanner\nmodel: "));
+  CHECK(holds(setup.said, "p4dx"));  // what is wrong with it, at the prompt
+  check_holds(setup.draft.text(),
+              {"kind = \"cia402\"", "can = \"can0\"", "right_node = 3 ", "host = \"127.0.0.1\"", "port = 9 "});
+}
+
+TEST_CASE("what was answered before a setup was broken off is not asked again") {
+  BareMachine machine;
+  rig::HandLivingClock clock;
+  const Scratch scratch;
+  const std::string kept = scratch.path("answers");
+  CHECK_THROWS_WITH(typed_setup(machine, clock, "p3dx\n\n\n2\n", {}, kept), Catch::Contains("has what was answered"));
+  const TypedSetup setup = typed_setup(machine, clock, "3\n76600\n\n\nsick-cola-b\n127.0.0.1\n9\n\n", {}, kept);
+  CHECK(holds(setup.said, ": p3dx (as answered before)\n"));
+  check_holds(setup.draft.text(), {"left_node = 2 ", "right_node = 3 ", "port = 9 "});
+}
+
+TEST_CASE("a model file that the answers name is found beside them, wherever the robot's file is written") {
+  BareMachine machine;
+  rig::HandLivingClock clock;
+  const Scratch scratch;
+  std::filesystem::create_directories(scratch.path("other"));
+  std::filesystem::copy_file(JAYWALK_EXAMPLES "/jackal.model.toml", scratch.path("mine.toml"));
+  const std::string written = scratch.write(
+      "answers.toml",
+      "model = \"mine.toml\"\n[laser]\nkind = \"sick-cola-b\"\nhost = \"127.0.0.1\"\nport = 9\n[drive]\nkind = "
+      "\"cia402\"\nleft_node = 2\nright_node = 3\ncounts_per_wheel_turn = 76600\n");
+  SetupAnswers answers(written, nullptr, nullptr);
+  const std::string robot = scratch.write("other/robot.toml", draft_robot(machine, answers, clock).text());
+  CHECK(load_robot_file(robot).setup.model.name == "jackal");
+}
+
+TEST_CASE("setup finds a Pioneer's board and an LMS200 on serial lines, and the file arms") {
+  EmulatedMachine machine("pioneer_lms200");
+  const RobotFile file = machine.drafted(
+      "model = \"p3dx\"\nstart = [2.0, 3.0, 1.2]\n[laser]\nkind = \"lms200\"\nrange_m = 8\n[drive]\nkind = "
+      "\"pioneer\"\n");
+  CAPTURE(machine.file_text);
+  CHECK(file.drive.kind == DriveKind::kPioneer);
+  CHECK(file.drive.line.device == machine.scratch.path("board"));
+  CHECK(file.laser.device == machine.scratch.path("scanner"));
+  CHECK(machine.robot->rim_speed() == 0.0);
+  const auto bus = make_bus(file.drive, machine.clock);
+  const auto drive = make_drive(file.drive, *bus, machine.clock);
+  CHECK(holds(drive->arm()[0], ": Pioneer p3dx-sh"));
 }

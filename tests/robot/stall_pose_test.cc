@@ -17,23 +17,6 @@ void stall(Bench& bench, Duration time) {
   bench.clock.live = live;
 }
 
-[[nodiscard]] double off_m(Bench& bench) {
-  return distance(bench.last().pose.map_from_robot.position(), bench.robot.far_end().truth().map_from_robot.position());
-}
-
-[[nodiscard]] double off_rad(Bench& bench) {
-  return std::fabs(
-      wrap_angle(bench.last().pose.map_from_robot.heading - bench.robot.far_end().truth().map_from_robot.heading));
-}
-
-/// A person resets, and waits until the drives are proved.
-void reset(Bench& bench) {
-  CHECK(bench.robot.desk().obey("reset") == "reset\n");
-  for (int k = 0; k < 300 && has(bench.last().verdict.reasons, Reason::kLatched); ++k) bench.tick();
-}
-
-[[nodiscard]] bool doubtful(Bench& bench) { return has(bench.last().verdict.reasons, Reason::kPoseDoubtful); }
-
 }  // namespace
 
 TEST_CASE("after a stall under way the pose is right again, or in doubt, before anything drives") {
@@ -43,21 +26,20 @@ TEST_CASE("after a stall under way the pose is right again, or in doubt, before 
         CAPTURE(robot, to_seconds(time), goal);
         Bench bench(robot);
         bench.tick(10);
-        REQUIRE(bench.robot.desk().obey(goal) == "going\n");
-        bench.tick(200);
+        bench.go(200, goal);
         stall(bench, time);
-        bench.tick(400);  // an ODrive without commands lets its wheel roll out
-        CHECK(bench.speed_mps() == 0.0);
-        CHECK((off_m(bench) < 0.05 || doubtful(bench)));
-        reset(bench);
+        CHECK(bench.speed_after(400) == 0.0);  // an ODrive without commands lets its wheel roll out
+        CHECK((bench.off_m() < 0.05 || bench.is_doubtful()));
+        bench.reset();
         bench.tick(20);
-        if (bench.robot.wires().port(0).health().frames_lost > 0 && doubtful(bench)) {  // a restart may be among them
-          CHECK(has(bench.last().verdict.reasons, Reason::kLatched));
+        // A restart may be among frames that were lost.
+        if (bench.robot.wires().port(0).health().frames_lost > 0 && bench.is_doubtful()) {
+          CHECK(bench.is_latched());
           continue;
         }
-        CHECK_FALSE(has(bench.last().verdict.reasons, Reason::kLatched));
-        CHECK(off_m(bench) < 0.05);
-        CHECK(off_rad(bench) < 0.02);
+        CHECK_FALSE(bench.is_latched());
+        CHECK(bench.off_m() < 0.05);
+        CHECK(bench.off_rad() < 0.02);
       }
     }
   }
@@ -66,35 +48,30 @@ TEST_CASE("after a stall under way the pose is right again, or in doubt, before 
 TEST_CASE("a drive that restarted in a stall leaves the pose in doubt until a person says where the robot is") {
   Bench bench("robot");
   bench.tick(10);
-  REQUIRE(bench.robot.desk().obey("goto 9 8") == "going\n");
-  bench.tick(300);
-  bench.robot.far_end().drive(0).restart();
+  bench.go(300);
+  bench.far_end().drive(0).restart();
   stall(bench, 3000ms);
-  bench.tick(100);
-  REQUIRE(bench.speed_mps() == 0.0);
-  CHECK(doubtful(bench));
-  reset(bench);
+  REQUIRE(bench.speed_after(100) == 0.0);
+  CHECK(bench.is_doubtful());
+  bench.reset();
   bench.tick(50);
-  CHECK(doubtful(bench));
-  CHECK(has(bench.last().verdict.reasons, Reason::kLatched));
-  CHECK(bench.robot.desk().obey("goto 9 8").starts_with("refused"));
-  CHECK(bench.robot.desk().obey("reset").starts_with("refused: nobody knows where the robot is"));
+  CHECK(bench.is_doubtful());
+  CHECK(bench.is_latched());
+  CHECK(bench.obey("goto 9 8").starts_with("refused"));
+  CHECK(bench.obey("reset").starts_with("refused: nobody knows where the robot is"));
 
-  const Pose2 there = bench.robot.far_end().truth().map_from_robot;
-  char words[100];
-  std::snprintf(words, sizeof words, "here %.2f %.2f", there.x + 0.1, there.y - 0.1);
-  CHECK(bench.robot.desk().obey(words) == "refused: here: say one place, and its heading\n");
-  std::snprintf(words, sizeof words, "here %.2f %.2f %.2f", there.x + 0.1, there.y - 0.1, there.heading + 0.05);
+  const Pose2 there = bench.truth();
+  CHECK(bench.obey("here 1 2") == "refused: here: say one place, and its heading\n");
+  const std::string words = tests::here({there.x + 0.1, there.y - 0.1, there.heading + 0.05});
   CHECK(tests::say(bench, words) == "there\n");
   bench.tick(20);
-  CHECK_FALSE(doubtful(bench));
-  CHECK(has(bench.last().verdict.reasons, Reason::kLatched));
-  reset(bench);
+  CHECK_FALSE(bench.is_doubtful());
+  CHECK(bench.is_latched());
+  bench.reset();
   bench.tick(50);
-  CHECK(off_m(bench) < 0.05);
-  CHECK(off_rad(bench) < 0.02);
-  CHECK(bench.robot.desk().obey("goto 9 8") == "going\n");
-  for (int k = 0; k < 400 && bench.speed_mps() < 0.2; ++k) bench.tick();
-  CHECK(bench.speed_mps() >= 0.2);
-  CHECK(bench.robot.desk().obey(words) == "refused: the robot still moves; try again when it stands\n");
+  CHECK(bench.off_m() < 0.05);
+  CHECK(bench.off_rad() < 0.02);
+  bench.go(0);
+  CHECK(bench.tick_until(400, [&] { return bench.speed_mps() >= 0.2; }));
+  CHECK(bench.obey(words) == "refused: the robot still moves; try again when it stands\n");
 }

@@ -1,10 +1,33 @@
 #pragma once
 // Settings files in which every key of the tables stands at least once.
 #include <array>
+#include <string>
 
 namespace jaywalk {
 
-inline constexpr const char* kWholeModel = R"(name = "whole"
+inline const std::string kWholeLaser = R"(mount = [0.1, 0.0, 0.0]
+fov_deg = 270.0
+beams = 811
+rate_hz = 15.0
+range_min_m = 0.05
+range_m = 25.0
+noise_m = 0.01
+drop_out = 0.0
+[[laser.blanked]]
+from_deg = 95.0
+to_deg = 110.0
+)";
+
+inline const std::string kWholeZones = R"([[zones]]
+kind = "keep_out"
+points = [[-3.0, 5.0], [-2.0, 5.0], [-2.0, 6.5]]
+[[zones]]
+kind = "speed"
+points = [[1.0, 5.0], [2.0, 5.0], [2.0, 6.5]]
+speed_mps = 0.2
+)";
+
+inline const std::string kWholeModel = R"(name = "whole"
 [footprint]
 front_m = 0.3
 rear_m = 0.2
@@ -21,20 +44,9 @@ max_turn_accel_radps2 = 2.0
 max_jerk_mps3 = 1.5
 brake_mps2 = 0.9
 [laser]
-mount = [0.1, 0.0, 0.0]
-fov_deg = 270.0
-beams = 811
-rate_hz = 15.0
-range_min_m = 0.05
-range_m = 25.0
-noise_m = 0.01
-drop_out = 0.0
-[[laser.blanked]]
-from_deg = 95.0
-to_deg = 110.0
-)";
+)" + kWholeLaser;
 
-inline constexpr std::array kWholeRobots{
+inline const std::array<std::string, 6> kWholeRobots{
     R"(model = "p3dx"
 max_speed_mps = 0.5
 comfort = "gentle"
@@ -48,18 +60,8 @@ kind = "sick-cola-b"
 host = "192.168.0.1"
 port = 2112
 first_scan_limit_s = 10.0
-fov_deg = 270.0
-beams = 811
-rate_hz = 15.0
-range_min_m = 0.05
-range_m = 25.0
-noise_m = 0.01
-drop_out = 0.0
-mount = [0.1, 0.0, 0.0]
-[[laser.blanked]]
-from_deg = 95.0
-to_deg = 110.0
-[drive]
+)" + kWholeLaser +
+        R"([drive]
 kind = "cia402"
 can = "can0"
 left_node = 2
@@ -93,14 +95,7 @@ cpu = 3
 required = true
 [map]
 yaml = "hall.yaml"
-[[zones]]
-kind = "keep_out"
-points = [[-3.0, 5.0], [-2.0, 5.0], [-2.0, 6.5]]
-[[zones]]
-kind = "speed"
-points = [[1.0, 5.0], [2.0, 5.0], [2.0, 6.5]]
-speed_mps = 0.2
-)",
+)" + kWholeZones,
     R"(model = "p3dx"
 [laser]
 kind = "lms200"
@@ -166,7 +161,7 @@ allow_unproved = true
 
 /// MAP is to be replaced by a whole [map] line, STICK by lines that say a kind of stick, ROWS by a file of recorded
 /// movers.
-inline constexpr const char* kWholeScenario = R"(name = "whole"
+inline const std::string kWholeScenario = R"(name = "whole"
 seed = 7
 timeout_s = 20.0
 [map]
@@ -252,13 +247,6 @@ kind = "carried"
 at_s = 7.0
 for_s = 2.0
 way = [1.0, 0.5, 0.2]
-[[zones]]
-kind = "keep_out"
-points = [[-3.0, 5.0], [-2.0, 5.0], [-2.0, 6.5]]
-[[zones]]
-kind = "speed"
-points = [[1.0, 5.0], [2.0, 5.0], [2.0, 6.5]]
-speed_mps = 0.2
-)";
+)" + kWholeZones;
 
 }  // namespace jaywalk

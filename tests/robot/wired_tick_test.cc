@@ -14,25 +14,19 @@ using namespace jaywalk;
 using namespace std::chrono_literals;
 using Bench = tests::WiredBench;
 
-namespace {
-
-constexpr Duration kTick = 20ms;
-
-}  // namespace
-
 // A tick takes no time by this clock. What stays is what the structure costs: the verdict of the first tick after a
 // scan's last byte uses that scan, and its command is on the bus before anything else happens.
 TEST_CASE("a scan is in the verdict of the next tick, whose frames leave within it") {
   Bench bench("robot");
-  CHECK(bench.robot.desk().obey("goto 9 8").rfind("refused", 0) == 0);  // the loop has not begun
+  CHECK(bench.obey("goto 9 8").starts_with("refused"));  // the loop has not begun
   bench.tick();
-  CHECK(bench.robot.desk().obey("goto 9 8") == "going\n");
+  CHECK(bench.obey("goto 9 8") == "going\n");
   std::uint32_t used = bench.last().scan.sequence;
   for (int k = 0; k < 250; ++k) {
     bench.tick();
     REQUIRE(bench.robot.bus().sent() == bench.due);
     const auto& messages = bench.robot.messages();
-    for (; used < bench.last().scan.sequence; ++used) REQUIRE(bench.due - messages[used] <= kTick);
+    for (; used < bench.last().scan.sequence; ++used) REQUIRE(bench.due - messages[used] <= 20ms);
     // None that was there is left for later.
     if (used < messages.size()) REQUIRE(messages[used] >= bench.due);
   }
@@ -44,13 +38,12 @@ TEST_CASE("a scan is in the verdict of the next tick, whose frames leave within 
 TEST_CASE("a disk that is full is told in the status within a second, and the robot drives on") {
   Bench bench("robot");
   bench.tick(10);
-  CHECK(bench.robot.desk().obey("goto 9 8") == "going\n");
-  bench.tick(100);
-  CHECK(bench.robot.desk().obey("status").find("not_recorded") == std::string::npos);
+  bench.go(100);
+  CHECK_FALSE(holds(bench.status(), "not_recorded"));
   const FileSizeLimit disk(1'000);  // less than there is of the recording
   bench.tick(50);
-  CHECK(bench.robot.desk().obey("status").find("\nreasons: not_recorded\n") != std::string::npos);
-  CHECK(bench.robot.desk().obey("status").rfind("state: driving\n", 0) == 0);
+  CHECK(holds(bench.status(), "\nreasons: not_recorded\n"));
+  CHECK(bench.status().starts_with("state: driving\n"));
   CHECK(bench.last().verdict.reasons == Reason::kNotRecorded);
   CHECK(bench.speed_mps() > 0.3);
   bench.tick(50);
@@ -62,46 +55,48 @@ TEST_CASE("a heading that is asked for over the desk is turned to over the wires
   bench.tick(10);
   const Pose2 start = bench.robot.runner().setup().start;
   const std::string place = "goto " + std::to_string(start.x) + " " + std::to_string(start.y) + " ";
-  CHECK(bench.robot.desk().obey(place + "2.5") == "going\n");
+  CHECK(bench.obey(place + "2.5") == "going\n");
   const auto turns_freely = [&] { return bench.last().verdict.reasons == Reason::kNone && bench.speed_mps() > 0.1; };
-  for (int k = 0; k < 250 && !turns_freely(); ++k) bench.tick();  // the wheels are proved first
-  const std::string on_the_way = bench.robot.desk().obey("status");
+  bench.tick_until(250, turns_freely);  // the wheels are proved first
+  const std::string on_the_way = bench.status();
   INFO(on_the_way);
-  CHECK(on_the_way.rfind("state: turning\n", 0) == 0);
+  CHECK(on_the_way.starts_with("state: turning\n"));
   // A pivot swings corners where the laser does not look: 0.3 m/s at most there, which the motion keeps by itself.
-  CHECK(on_the_way.find(" 2.5\nreasons: \n") != std::string::npos);
+  CHECK(holds(on_the_way, " 2.5\nreasons: \n"));
   CHECK(bench.speed_mps() > 0.1);
-  CHECK(std::fabs(bench.robot.far_end().truth().twist.w_radps) *
+  CHECK(std::fabs(bench.far_end().truth().twist.w_radps) *
             bench.robot.runner().setup().model.footprint.circumscribed_radius_m() <
         0.3);
   bench.heap_calls = 0;
   bench.tick(250);
   CHECK(bench.heap_calls == 0);
-  CHECK(bench.robot.desk().obey("status").rfind("state: reached\n", 0) == 0);
+  CHECK(bench.status().starts_with("state: reached\n"));
   CHECK(bench.speed_mps() == 0.0);
   CHECK(wrap_angle(bench.last().pose.map_from_robot.heading - 2.5) == Approx(0.0).margin(0.1));
   // Another goal there without a heading is reached as it stands.
-  CHECK(bench.robot.desk().obey(place) == "going\n");
+  CHECK(bench.obey(place) == "going\n");
   bench.tick(10);
-  CHECK(bench.robot.desk().obey("status").rfind("state: reached\n", 0) == 0);
+  CHECK(bench.status().starts_with("state: reached\n"));
   CHECK(bench.speed_mps() == 0.0);
 }
 
 TEST_CASE("at any rate of the loop ordinary drives, stops and turns are confirmed by the wheels' feedback") {
-  for (const int rate_hz : {20, 200}) {
+  for (const int rate_hz : {20, 50, 200}) {
     Bench bench("robot", {}, rate_hz);
     const auto live = [&](double seconds) { bench.tick(static_cast<int>(seconds * rate_hz)); };
     live(0.5);
     for (const char* goal : {"goto 9 8", "goto 3 3 2.5"}) {
       for (const double seconds : {0.3, 1.6}) {
-        CHECK(bench.robot.desk().obey(goal) == "going\n");
-        live(seconds);
-        CHECK(bench.robot.desk().obey("stop now") == "stopping\n");
+        bench.go(static_cast<int>(seconds * rate_hz), goal);
+        CHECK(bench.obey("stop now") == "stopping\n");
         live(1.5);
         REQUIRE(bench.speed_mps() == 0.0);
         REQUIRE(bench.robot.drive().trouble() == DriveTrouble::kNone);
         REQUIRE(bench.last().wheels.stop == StopStage::kNone);
-        CHECK(bench.robot.desk().obey("reset") == "reset\n");
+        REQUIRE(bench.robot.drive().is_proved());
+        CHECK(bench.obey("reset") == "reset\n");
+        bench.tick();
+        CHECK_FALSE(bench.is_latched());  // the drives are asked for no proof
         live(0.3);
       }
     }
@@ -111,12 +106,11 @@ TEST_CASE("at any rate of the loop ordinary drives, stops and turns are confirme
 TEST_CASE("ticks and what takes in scans and frames ask nothing of the heap, whatever the devices") {
   for (const char* robot : {"robot", "odrive_hokuyo", "vesc_ld19"}) {
     Bench bench(robot);
-    for (int k = 0; k < 25; ++k) bench.tick();
-    CHECK(bench.robot.desk().obey("goto 9 8") == "going\n");
+    bench.tick(25);
+    bench.go(0);
     bench.heap_calls = 0;
-    for (int k = 0; k < 250; ++k) bench.tick();
-    const auto calls = bench.heap_calls;
-    CHECK(calls == 0);
+    bench.tick(250);
+    CHECK(bench.heap_calls == 0);
     // An LD19 has no word for "nothing within reach", and the hall is wider than its 12 m: what lies there is not
     // proven, and the supervisor holds the robot to 0.1 m/s there.
     CHECK(bench.speed_mps() > (std::string(robot) == "vesc_ld19" ? 0.05 : 0.3));
@@ -125,8 +119,8 @@ TEST_CASE("ticks and what takes in scans and frames ask nothing of the heap, wha
 
 /// What the live page has in the loop's thread.
 struct PageOfLoop final : TickObserver {
-  void after_tick(const TickRecord& record, const ControlLoop& loop) noexcept override { tap.offer(record, loop); }
-  view::SnapshotTap tap;
+  void after_tick(const TickRecord& record, const ControlLoop& loop) noexcept override { tap.after_tick(record, loop); }
+  view::RunTap tap{EvidenceMap(64, 0.1, {})};
 };
 
 // A run without a page, one whose page is read, one whose page is not: the ring is full after four snapshots.
@@ -134,11 +128,11 @@ TEST_CASE("a live page that looks, or that stops reading, asks nothing of the he
   std::vector<std::vector<std::pair<double, double>>> commands;
   for (const char* page : {"none", "reads", "stopped"}) {
     PageOfLoop observer;
-    view::SnapshotTap& tap = observer.tap;
+    view::RunTap& tap = observer.tap;
     tap.want(page != std::string("none"));
-    Bench bench("robot", observer);
+    Bench bench("robot", {}, 50, StickUse::kNone, &observer);
     bench.tick(25);
-    CHECK(bench.robot.desk().obey("goto 9 8") == "going\n");
+    CHECK(bench.obey("goto 9 8") == "going\n");
     bench.heap_calls = 0;
     auto& sent = commands.emplace_back();
     std::size_t shown = 0;
@@ -164,11 +158,10 @@ TEST_CASE("a thousand busy ticks with memory locked have no page fault") {
     return;
   }
   bench.tick(50);
-  CHECK(bench.robot.desk().obey("goto 9 8") == "going\n");
-  bench.tick(50);
+  bench.go(50);
   PageFaults faults;
   for (int k = 0; k < 1000; ++k) {
-    if (k == 500) CHECK(bench.robot.desk().obey("goto 2 3") == "going\n");
+    if (k == 500) CHECK(bench.obey("goto 2 3") == "going\n");
     bench.sleep();
     const PageFaults before = page_faults();
     bench.robot.loop().tick(bench.due);
@@ -180,5 +173,5 @@ TEST_CASE("a thousand busy ticks with memory locked have no page fault") {
   ::munlockall();
   CHECK(faults.minor == 0);
   CHECK(faults.major == 0);
-  CHECK(bench.robot.desk().obey("status").find("\npage_faults: ") != std::string::npos);
+  CHECK(holds(bench.status(), "\npage_faults: "));
 }

@@ -11,12 +11,6 @@ namespace {
 
 constexpr double kDeg = kPi / 180.0;
 
-RobotModel model_at(double max_speed_mps, bool chair) {
-  RobotModel model = chair ? wheelchair() : p3dx();
-  model.limits.max_speed_mps = max_speed_mps;
-  return model;
-}
-
 /// All beams within half of `width_rad` of a direction say `range_m`.
 void lose(LaserScan& scan, double middle_rad, double width_rad, float range_m) {
   for (std::size_t k = 0; k < scan.beam_count; ++k) {
@@ -55,7 +49,7 @@ TEST_CASE(
   int slow = 0, free = 0;
   for (int placement = 0; placement < 200; ++placement) {
     const double speed = std::array{0.3, 0.6, 1.2}[static_cast<std::size_t>(placement) % 3];
-    const RobotModel model = model_at(speed, placement % 2 == 1);
+    const RobotModel model = at(placement % 2 == 1 ? wheelchair() : p3dx(), speed);
     const double x = between(1.2, 3.0), y = between(-0.4, 0.4);
     Obstacle obstacle{.centre = {x, y}, .radius_m = between(0.035, 0.3)};
     if (placement % 4 >= 2) {
@@ -93,24 +87,20 @@ TEST_CASE(
 }
 
 TEST_CASE("all beams but one at 0, or 120 degrees ahead: the robot stays where it is") {
-  for (const double speed : {0.3, 0.6, 1.2}) {
-    for (const bool all : {true, false}) {
-      DrivenRobot robot(model_at(speed, false), {{.centre = {1.0, 0.0}, .radius_m = 0.1}});
-      robot.spoil = [all](LaserScan& scan) { lose(scan, 0.0, all ? 10.0 : 120.0 * kDeg, 0.0F); };
-      if (all) {
-        robot.spoil = [](LaserScan& scan) {
-          for (std::size_t k = 0; k < 810; ++k) scan.range_m[k] = 0.0F;
-        };
-      }
-      double v = 0.0;
-      for (int k = 0; k < 100; ++k) v = robot.tick({std::min(speed, v + 0.02), 0.0}).permitted.v_mps;
-      CHECK(robot.pose().x < 0.02);
-    }
-  }
+  const double speed = GENERATE(0.3, 0.6, 1.2);
+  const bool all = GENERATE(true, false);
+  DrivenRobot robot(at(p3dx(), speed), {{.centre = {1.0, 0.0}, .radius_m = 0.1}});
+  robot.spoil = [all](LaserScan& scan) {
+    if (all) std::fill_n(scan.range_m.begin(), 810, 0.0F);
+    if (!all) lose(scan, 0.0, 120.0 * kDeg, 0.0F);
+  };
+  double v = 0.0;
+  for (int k = 0; k < 100; ++k) v = robot.tick({std::min(speed, v + 0.02), 0.0}).permitted.v_mps;
+  CHECK(robot.pose().x < 0.02);
 }
 
 TEST_CASE("beams that are lost while the robot drives stop it, as hard as it brakes") {
-  DrivenRobot robot(model_at(1.2, false), {});
+  DrivenRobot robot(at(p3dx(), 1.2), {});
   double v = 0.0;
   for (int k = 0; k < 100; ++k) v = robot.tick({std::min(1.2, v + 0.02), 0.0}).permitted.v_mps;
   REQUIRE(v == 1.2);
@@ -123,20 +113,19 @@ TEST_CASE("beams that are lost while the robot drives stop it, as hard as it bra
 }
 
 TEST_CASE("one lost beam of a fine scanner costs nothing, nor does every third") {
-  for (const std::size_t every : {811U, 3U}) {
-    DrivenRobot robot(model_at(0.6, false), {});
-    robot.spoil = [every](LaserScan& scan) {
-      for (std::size_t k = 405 % every; k < scan.beam_count; k += every) scan.range_m[k] = 0.0F;
-    };
-    Verdict verdict;
-    for (int k = 0; k < 100; ++k) verdict = robot.tick({std::min(0.6, verdict.permitted.v_mps + 0.02), 0.0});
-    CHECK(verdict.permitted.v_mps == 0.6);
-    CHECK(verdict.reasons == Reason::kNone);
-  }
+  const std::size_t every = GENERATE(811U, 3U);
+  DrivenRobot robot(at(p3dx(), 0.6), {});
+  robot.spoil = [every](LaserScan& scan) {
+    for (std::size_t k = 405 % every; k < scan.beam_count; k += every) scan.range_m[k] = 0.0F;
+  };
+  Verdict verdict;
+  for (int k = 0; k < 100; ++k) verdict = robot.tick({std::min(0.6, verdict.permitted.v_mps + 0.02), 0.0});
+  CHECK(verdict.permitted.v_mps == 0.6);
+  CHECK(verdict.reasons == Reason::kNone);
 }
 
 TEST_CASE("with lost beams beside it the robot drives on, and away from those ahead of it it backs") {
-  DrivenRobot beside(model_at(0.6, false), {}), before(model_at(0.6, false), {});
+  DrivenRobot beside(at(p3dx(), 0.6), {}), before(at(p3dx(), 0.6), {});
   beside.spoil = [](LaserScan& scan) { lose(scan, 90.0 * kDeg, 30.0 * kDeg, 0.0F); };
   before.spoil = [](LaserScan& scan) { lose(scan, 0.0, 30.0 * kDeg, 0.0F); };
   Verdict verdict;

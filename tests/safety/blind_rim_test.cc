@@ -2,27 +2,17 @@
 #include "planner/motion/blind_rim.h"
 
 #include "firmware/safety/blind_gaps.h"
+#include "tests/safety/scans.h"
 #include "tests/support/catch.h"
 
 using namespace jaywalk;
 
 namespace {
 
-/// A scan that measures with every beam.
-LaserScan full_scan(const LaserModel& laser) {
-  LaserScan scan;
-  scan.beam_count = laser.beams;
-  scan.first_angle_rad = static_cast<float>(-0.5 * laser.fov_rad);
-  scan.angle_step_rad = static_cast<float>(laser.fov_rad / (laser.beams - 1));
-  scan.range_min_m = 0.05F, scan.range_max_m = 25.0F;
-  for (std::size_t k = 0; k < scan.beam_count; ++k) scan.range_m[k] = 3.0F;
-  return scan;
-}
-
 /// As the supervisor has it: by how much the fastest part that moves outward unwatched exceeds 0.3 m/s.
 double taken_away(const RobotModel& robot, const Twist2& twist) {
   BlindGaps gaps(robot.laser);
-  gaps.update(full_scan(robot.laser));
+  gaps.update(tests::scan_of(robot.laser, 3.0F));
   const Watch watch(robot.footprint, robot.laser.robot_from_laser, 0.08);
   return std::max(watch.unwatched_mps(gaps, twist, SweptPath(twist, 0.0, 0.0)) - 0.3, 0.0);
 }

@@ -7,8 +7,15 @@
 #include <vector>
 
 #include "firmware/safety/supervisor.h"
+#include "tests/safety/scans.h"
 
 namespace jaywalk {
+
+/// The same robot with another greatest speed.
+inline RobotModel at(RobotModel model, double max_speed_mps) {
+  model.limits.max_speed_mps = max_speed_mps;
+  return model;
+}
 
 /// What stands in the way: a post, or a rectangle that is turned.
 struct Obstacle {
@@ -65,11 +72,7 @@ class DrivenRobot {
   DrivenRobot(const RobotModel& model, std::vector<Obstacle> obstacles, const SupervisorConfig& config)
       : model_(model), obstacles_(std::move(obstacles)), supervisor_(config), tick_s_(to_seconds(config.tick)) {
     input_.has_goal = true;
-    scan_.beam_count = model.laser.beams;
-    scan_.first_angle_rad = static_cast<float>(-0.5 * model.laser.fov_rad);
-    scan_.angle_step_rad = static_cast<float>(model.laser.fov_rad / (model.laser.beams - 1));
-    scan_.range_min_m = static_cast<float>(model.laser.range_min_m);
-    scan_.range_max_m = static_cast<float>(model.laser.range_max_m);
+    tests::lay_beams(scan_, model.laser);
   }
   DrivenRobot(const RobotModel& model, std::vector<Obstacle> obstacles)
       : DrivenRobot(model, std::move(obstacles), SupervisorConfig{.model = model}) {}
@@ -99,13 +102,7 @@ class DrivenRobot {
   /// Least distance between the footprint and an obstacle; 0 in contact.
   [[nodiscard]] double clearance_m() const {
     double least = std::numeric_limits<double>::infinity();
-    for (const Obstacle& obstacle : obstacles_) {
-      for (const Vec2 p : obstacle.rim()) {
-        const Vec2 d = p - pose_.position();
-        const double c = std::cos(pose_.heading), s = std::sin(pose_.heading);
-        least = std::min(least, model_.footprint.distance_to({c * d.x + s * d.y, c * d.y - s * d.x}));
-      }
-    }
+    for (const Vec2 p : rims()) least = std::min(least, model_.footprint.distance_to(p));
     return least;
   }
 
@@ -113,14 +110,21 @@ class DrivenRobot {
   std::span<const Vec2> known_walls() {
     known_.clear();
     if (!knows_obstacles) return {};
+    for (const Vec2 p : rims())
+      if (norm(p) < 1.5) known_.push_back(p);
+    return known_;
+  }
+  /// Points on the rims of all obstacles, in the robot's frame.
+  [[nodiscard]] std::vector<Vec2> rims() const {
+    std::vector<Vec2> points;
+    const double c = std::cos(pose_.heading), s = std::sin(pose_.heading);
     for (const Obstacle& obstacle : obstacles_) {
       for (const Vec2 p : obstacle.rim()) {
         const Vec2 d = p - pose_.position();
-        const double c = std::cos(pose_.heading), s = std::sin(pose_.heading);
-        if (norm(d) < 1.5) known_.push_back({c * d.x + s * d.y, c * d.y - s * d.x});
+        points.push_back({c * d.x + s * d.y, c * d.y - s * d.x});
       }
     }
-    return known_;
+    return points;
   }
   void sweep() {
     scan_.stamp = now_;

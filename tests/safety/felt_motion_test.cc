@@ -102,78 +102,74 @@ std::pair<double, double> lively(double t_s) {
   return part_s < 5.0 ? std::pair{-0.25, 0.25} : std::pair{0.25, -0.25};
 }
 
-std::pair<double, double> steadily(double) { return {0.3, 0.3}; }
+/// Both wheels at this speed all the time.
+auto at(double mps) {
+  return [mps](double) { return std::pair{mps, mps}; };
+}
 
 }  // namespace
 
 TEST_CASE("wheels that obey late, with a lag and in coarse steps are no fault at any rate of the loop") {
-  for (const double period_s : {0.005, 0.02, 0.05}) {
-    for (const double late_s : {0.01, 0.05}) {
-      for (const double step_mps : {0.0, 0.063}) {
-        Bench bench{.period_s = period_s, .late_s = late_s, .step_mps = step_mps};
-        CHECK(std::isinf(bench.told_after(18.0, lively)));
-      }
-    }
-  }
+  const double period_s = GENERATE(0.005, 0.02, 0.05);
+  const double late_s = GENERATE(0.01, 0.05);
+  const double step_mps = GENERATE(0.0, 0.063);
+  Bench bench{.period_s = period_s, .late_s = late_s, .step_mps = step_mps};
+  CHECK(std::isinf(bench.told_after(18.0, lively)));
 }
 
 TEST_CASE("a wheel that is reversed or stuck is told within half a second of driving, whichever it is") {
-  for (const double period_s : {0.005, 0.02, 0.05}) {
-    for (const double late_s : {0.01, 0.05}) {
-      for (const auto& [left, right] : {std::pair{-1.0, -1.0}, {-1.0, 1.0}, {1.0, -1.0}, {0.0, 1.0}, {1.0, 0.0}}) {
-        Bench bench{.period_s = period_s, .late_s = late_s, .left_motor = left, .right_motor = right};
-        CHECK(bench.told_after(2.0, steadily) < 0.5);
-      }
-    }
+  const double period_s = GENERATE(0.005, 0.02, 0.05);
+  const double late_s = GENERATE(0.01, 0.05);
+  for (const auto& [left, right] : {std::pair{-1.0, -1.0}, {-1.0, 1.0}, {1.0, -1.0}, {0.0, 1.0}, {1.0, 0.0}}) {
+    Bench bench{.period_s = period_s, .late_s = late_s, .left_motor = left, .right_motor = right};
+    CHECK(bench.told_after(2.0, at(0.3)) < 0.5);
   }
 }
 
 TEST_CASE("a wheel that sticks under way is told within half a second") {
   Bench bench;
-  REQUIRE(std::isinf(bench.told_after(2.0, steadily)));
+  REQUIRE(std::isinf(bench.told_after(2.0, at(0.3))));
   bench.right_motor = 0.0;
-  CHECK(bench.told_after(2.0, steadily) < 0.5);
+  CHECK(bench.told_after(2.0, at(0.3)) < 0.5);
 }
 
 TEST_CASE("wheels that turn though they are commanded to stand are told, on either side and in either direction") {
-  for (const double felt_mps : {0.2, -0.2}) {
-    for (const bool left : {true, false}) {
-      FeltMotion felt(kWheels, kLimits);
-      double told_s = 0.0;
-      for (double t = 0.0; told_s == 0.0 && t < 2.0; t += 0.02) {
-        const WheelState wheels{.stamp = time_from_seconds(t),
-                                .sequence = 1,
-                                .left_rad = left ? 10.0 * felt_mps * t : 0.0,
-                                .right_rad = left ? 0.0 : 10.0 * felt_mps * t,
-                                .left_radps = left ? 10.0 * felt_mps : 0.0,
-                                .right_radps = left ? 0.0 : 10.0 * felt_mps};
-        if (felt.disobeys({}, wheels, time_from_seconds(t))) told_s = t;
-      }
-      CHECK(told_s > 0.1);  // 0.18 m/s too much for 0.167 s is 0.03 m
-      CHECK(told_s < 0.25);
-    }
+  const double felt_mps = GENERATE(0.2, -0.2);
+  const bool left = GENERATE(true, false);
+  FeltMotion felt(kWheels, kLimits);
+  double told_s = 0.0;
+  for (double t = 0.0; told_s == 0.0 && t < 2.0; t += 0.02) {
+    const WheelState wheels{.stamp = time_from_seconds(t),
+                            .sequence = 1,
+                            .left_rad = left ? 10.0 * felt_mps * t : 0.0,
+                            .right_rad = left ? 0.0 : 10.0 * felt_mps * t,
+                            .left_radps = left ? 10.0 * felt_mps : 0.0,
+                            .right_radps = left ? 0.0 : 10.0 * felt_mps};
+    if (felt.disobeys({}, wheels, time_from_seconds(t))) told_s = t;
   }
+  CHECK(told_s > 0.1);  // 0.18 m/s too much for 0.167 s is 0.03 m
+  CHECK(told_s < 0.25);
 }
 
 TEST_CASE("a drive in trouble may brake by itself, but not go on") {
   Bench bench;
-  REQUIRE(std::isinf(bench.told_after(2.0, steadily)));
+  REQUIRE(std::isinf(bench.told_after(2.0, at(0.3))));
   bench.trouble = DriveTrouble::kEmergency;
   bench.left_motor = bench.right_motor = 0.0;
-  CHECK(std::isinf(bench.told_after(0.5, steadily)));
-  CHECK(std::isinf(bench.told_after(3.0, [](double) { return std::pair{0.0, 0.0}; })));
+  CHECK(std::isinf(bench.told_after(0.5, at(0.3))));
+  CHECK(std::isinf(bench.told_after(3.0, at(0.0))));
   Bench racing;
-  REQUIRE(std::isinf(racing.told_after(2.0, steadily)));
+  REQUIRE(std::isinf(racing.told_after(2.0, at(0.3))));
   racing.trouble = DriveTrouble::kLeftOperation;
   racing.runs_away = true;
-  const double told_s = racing.told_after(2.0, [](double) { return std::pair{0.0, 0.0}; });
+  const double told_s = racing.told_after(2.0, at(0.0));
   CHECK(told_s > 0.4);  // 0.2 s to obey, then from 0.3 m/s down at 1 m/s2, and 0.03 m
   CHECK(told_s < 0.7);
 }
 
 TEST_CASE("commands too small for a fault at once add up: a wheel that does not creep when commanded 0.1 m/s") {
   Bench bench{.left_motor = 0.0};
-  const double told_s = bench.told_after(3.0, [](double) { return std::pair{0.1, 0.1}; });
+  const double told_s = bench.told_after(3.0, at(0.1));
   CHECK(told_s > 0.5);  // 0.2 s to obey, then 0.1 - 0.035 m/s for 0.46 s is 0.03 m
   CHECK(told_s < 0.9);
 }
@@ -189,39 +185,33 @@ TEST_CASE("feedback that stopped coming, or is no number, says nothing of obedie
 }
 
 TEST_CASE("a counter that stands, or counts half or twice as much, while its wheel's speed is alive is told") {
-  for (const double speed : {0.2, 0.3, 0.6}) {
-    for (const auto& [left, right] :
-         {std::pair{0.0, 0.0}, {0.0, 1.0}, {1.0, 0.0}, {0.5, 0.5}, {1.0, 2.0}, {-1.0, 1.0}}) {
-      Bench bench;
-      REQUIRE(std::isinf(bench.told_after(2.0, [&](double) { return std::pair{speed, speed}; })));
-      bench.left_counts = left;
-      bench.right_counts = right;
-      const double within_s = left == 0.5 ? 1.5 : 0.6;
-      CHECK(bench.told_after(2.0, [&](double) { return std::pair{speed, speed}; }) < within_s);
-    }
+  const double speed = GENERATE(0.2, 0.3, 0.6);
+  for (const auto& [left, right] : {std::pair{0.0, 0.0}, {0.0, 1.0}, {1.0, 0.0}, {0.5, 0.5}, {1.0, 2.0}, {-1.0, 1.0}}) {
+    Bench bench;
+    REQUIRE(std::isinf(bench.told_after(2.0, at(speed))));
+    bench.left_counts = left;
+    bench.right_counts = right;
+    const double within_s = left == 0.5 ? 1.5 : 0.6;
+    CHECK(bench.told_after(2.0, at(speed)) < within_s);
   }
 }
 
 TEST_CASE("counters that are read less often than speeds, or a few per cent off, are no fault") {
-  for (const double every_s : {0.001, 0.02, 0.05}) {
-    for (const double counts : {0.95, 1.0, 1.05}) {
-      Bench bench{.left_counts = counts, .counted_every_s = every_s};
-      CHECK(std::isinf(bench.told_after(18.0, lively)));
-    }
-  }
+  const double every_s = GENERATE(0.001, 0.02, 0.05);
+  const double counts = GENERATE(0.95, 1.0, 1.05);
+  Bench bench{.left_counts = counts, .counted_every_s = every_s};
+  CHECK(std::isinf(bench.told_after(18.0, lively)));
 }
 
 TEST_CASE("bases that report every 10 to 100 ms, up to 60 ms late, are no fault, and are told where they do not obey") {
-  for (const double report_s : {0.01, 0.02, 0.05, 0.1}) {
-    for (const unsigned seed : {1U, 2U, 3U}) {
-      CAPTURE(report_s, seed);
-      const DriveTimes times{.report_s = report_s, .late_s = 0.06};
-      Bench bench{.late_s = 0.0, .times = times, .report_every_s = report_s, .draws = std::minstd_rand(seed)};
-      CHECK(std::isinf(bench.told_after(60.0, lively)));
-      Bench reversed{.late_s = 0.0, .left_motor = -1.0, .times = times, .report_every_s = report_s};
-      CHECK(reversed.told_after(2.0, steadily) < 0.5 + report_s + 0.06);
-    }
-  }
+  const double report_s = GENERATE(0.01, 0.02, 0.05, 0.1);
+  const unsigned seed = GENERATE(1U, 2U, 3U);
+  CAPTURE(report_s, seed);
+  const DriveTimes times{.report_s = report_s, .late_s = 0.06};
+  Bench bench{.late_s = 0.0, .times = times, .report_every_s = report_s, .draws = std::minstd_rand(seed)};
+  CHECK(std::isinf(bench.told_after(60.0, lively)));
+  Bench reversed{.late_s = 0.0, .left_motor = -1.0, .times = times, .report_every_s = report_s};
+  CHECK(reversed.told_after(2.0, at(0.3)) < 0.5 + report_s + 0.06);
 }
 
 TEST_CASE("a drive that states a slow response has the time it states") {
@@ -235,15 +225,11 @@ TEST_CASE("a drive that states a slow response has the time it states") {
 }
 
 TEST_CASE("speeds that stand while both counters live are told within centimetres of a difference in way") {
-  const auto slows = [](double) { return std::pair{0.2, 0.2}; };
-  const auto speeds_up = [](double) { return std::pair{0.6, 0.6}; };
-  for (const double from : {0.3, 0.4, 0.5}) {
-    for (const bool up : {true, false}) {
-      Bench bench;
-      REQUIRE(std::isinf(bench.told_after(2.0, [&](double) { return std::pair{from, from}; })));
-      bench.speeds_stand = true;
-      REQUIRE(bench.told_after(3.0, up ? std::function(speeds_up) : std::function(slows)) < 1.5);
-      CHECK(std::fabs(bench.speeds_off_m) < 0.11);
-    }
-  }
+  const double from = GENERATE(0.3, 0.4, 0.5);
+  const bool up = GENERATE(true, false);
+  Bench bench;
+  REQUIRE(std::isinf(bench.told_after(2.0, at(from))));
+  bench.speeds_stand = true;
+  REQUIRE(bench.told_after(3.0, at(up ? 0.6 : 0.2)) < 1.5);
+  CHECK(std::fabs(bench.speeds_off_m) < 0.11);
 }

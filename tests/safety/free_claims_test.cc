@@ -88,56 +88,47 @@ Obstacle wall_ahead(double x_m) { return {.centre = {x_m + 0.05, 0.0}, .half = {
 }  // namespace
 
 TEST_CASE("a sector whose hits turn free from one scan to the next is doubted, at rest and under way") {
-  for (const bool all_round : {false, true}) {
-    for (const double wall_m : {0.6, 1.0, 2.0, 4.0, 8.0}) {
-      for (const double half_deg : {10.0, 20.0, 40.0, 180.0}) {
-        for (const double way_m : {0.0, 0.015, 0.05 * std::min(1.0, wall_m - 0.6)}) {
-          Eye eye(all_round);
-          eye.things = {wall_ahead(wall_m)};
-          for (int k = 0; k < 5; ++k) REQUIRE((eye.next(way_m), eye.doubted() == 0));
-          eye.spoil = silence(half_deg * kDeg);
-          INFO("wall at " << wall_m << " m, " << half_deg << " degrees to each side, " << way_m
-                          << " m a scan, all round " << all_round);
-          for (int k = 0; k < 5; ++k) {
-            const LaserScan& scan = eye.next(way_m);
-            bool all = true;
-            for (std::size_t beam = 0; beam < scan.beam_count; ++beam) {
-              const double angle = std::fabs(wrap_angle(scan.angle_rad(beam)));
-              const bool on_wall = angle <= half_deg * kDeg && angle < std::atan2(2.5, wall_m);
-              all = all && (!on_wall || scan.range_m[beam] == 0.0F);
-            }
-            CHECK(all);
-            CHECK(eye.doubted() > 10);
-          }
-        }
-      }
+  const bool all_round = GENERATE(false, true);
+  const double wall_m = GENERATE(0.6, 1.0, 2.0, 4.0, 8.0);
+  const double half_deg = GENERATE(10.0, 20.0, 40.0, 180.0);
+  const double way_m = GENERATE_COPY(0.0, 0.015, 0.05 * std::min(1.0, wall_m - 0.6));
+  Eye eye(all_round);
+  eye.things = {wall_ahead(wall_m)};
+  for (int k = 0; k < 5; ++k) REQUIRE((eye.next(way_m), eye.doubted() == 0));
+  eye.spoil = silence(half_deg * kDeg);
+  CAPTURE(all_round, wall_m, half_deg, way_m);
+  for (int k = 0; k < 5; ++k) {
+    const LaserScan& scan = eye.next(way_m);
+    bool all = true;
+    for (std::size_t beam = 0; beam < scan.beam_count; ++beam) {
+      const double angle = std::fabs(wrap_angle(scan.angle_rad(beam)));
+      const bool on_wall = angle <= half_deg * kDeg && angle < std::atan2(2.5, wall_m);
+      all = all && (!on_wall || scan.range_m[beam] == 0.0F);
     }
+    CHECK(all);
+    CHECK(eye.doubted() > 10);
   }
 }
 
 TEST_CASE("people who walk on open ground and walls that end are no failure of the scanner") {
-  for (const bool all_round : {false, true}) {
-    for (const double away_m : {0.45, 0.8, 2.0, 5.0}) {
-      for (const double speed_mps : {0.3, 0.8, 1.4, 1.8}) {
-        for (const bool across : {true, false}) {
-          Eye eye(all_round);
-          INFO(speed_mps << " m/s at " << away_m << " m, across " << across << ", all round " << all_round);
-          int doubted = 0;
-          for (int k = 0; k < 60; ++k) {
-            const double gone_m = speed_mps * 0.1 * (k - 20);
-            const Vec2 body = across ? Vec2{away_m, gone_m} : Vec2{away_m + std::fabs(gone_m), 0.3};
-            const double step_m = 0.35 * std::sin(0.2 * kPi * k);
-            eye.things = {{.centre = Transform2(eye.pose) * body, .radius_m = 0.25},
-                          {.centre = {-1.0, 3.0 + step_m}, .radius_m = 0.06},  // a leg that swings
-                          {.centre = {0.0, -1.0}, .half = {1.5, 0.05}}};
-            (void)eye.next(0.02, 0.01);
-            doubted += eye.doubted();
-          }
-          CHECK(doubted == 0);
-        }
-      }
-    }
+  const bool all_round = GENERATE(false, true);
+  const double away_m = GENERATE(0.45, 0.8, 2.0, 5.0);
+  const double speed_mps = GENERATE(0.3, 0.8, 1.4, 1.8);
+  const bool across = GENERATE(true, false);
+  Eye eye(all_round);
+  CAPTURE(all_round, away_m, speed_mps, across);
+  int doubted = 0;
+  for (int k = 0; k < 60; ++k) {
+    const double gone_m = speed_mps * 0.1 * (k - 20);
+    const Vec2 body = across ? Vec2{away_m, gone_m} : Vec2{away_m + std::fabs(gone_m), 0.3};
+    const double step_m = 0.35 * std::sin(0.2 * kPi * k);
+    eye.things = {{.centre = Transform2(eye.pose) * body, .radius_m = 0.25},
+                  {.centre = {-1.0, 3.0 + step_m}, .radius_m = 0.06},  // a leg that swings
+                  {.centre = {0.0, -1.0}, .half = {1.5, 0.05}}};
+    (void)eye.next(0.02, 0.01);
+    doubted += eye.doubted();
   }
+  CHECK(doubted == 0);
 }
 
 TEST_CASE("doubted beams are believed when they have hit something in two scans, those beside them with them") {

@@ -43,13 +43,12 @@ double measured_s(double loop_hz, double dead_s, double lag_s) {
 }  // namespace
 
 TEST_CASE("a drive's response is its dead time and its lag together") {
-  for (const double loop_hz : {20.0, 50.0, 200.0}) {
-    INFO(loop_hz << " Hz");
-    CHECK(measured_s(loop_hz, 0.0, 0.05) == Approx(0.05).margin(0.02));
-    CHECK(measured_s(loop_hz, 0.1, 0.05) == Approx(0.15).margin(0.02));
-    CHECK(measured_s(loop_hz, 0.02, 0.2) == Approx(0.22).margin(0.04));
-    CHECK(measured_s(loop_hz, 0.6, 0.1) == Approx(0.3));  // no more is reckoned with
-  }
+  const double loop_hz = GENERATE(20.0, 50.0, 200.0);
+  CAPTURE(loop_hz);
+  CHECK(measured_s(loop_hz, 0.0, 0.05) == Approx(0.05).margin(0.02));
+  CHECK(measured_s(loop_hz, 0.1, 0.05) == Approx(0.15).margin(0.02));
+  CHECK(measured_s(loop_hz, 0.02, 0.2) == Approx(0.22).margin(0.04));
+  CHECK(measured_s(loop_hz, 0.6, 0.1) == Approx(0.3));  // no more is reckoned with
 }
 
 TEST_CASE("a steady speed tells nothing of the drives, nor do wheels that are no numbers") {

@@ -7,19 +7,14 @@
 #include <random>
 #include <vector>
 
+#include "tests/safety/trial_room.h"
 #include "tests/support/catch.h"
 
 using namespace jaywalk;
+using trials::Walker;
+using trials::Wall;
 
 namespace {
-
-struct Wall {
-  Vec2 from, to;
-};
-struct Post {
-  Vec2 centre, velocity;
-  double radius_m = 0.2;
-};
 
 /// How a robot's wheels and scanner are connected: what the ground gets of each wheel's turning.
 struct Wiring {
@@ -27,11 +22,10 @@ struct Wiring {
   bool swapped = false, mirrored = false;
 };
 
-/// A robot among walls and people, its wheels read every 10 ms, its scanner with 10 mm of noise. World written here
-/// anew, so that no formula is shared.
+/// A robot among walls and people, its wheels read every 10 ms, its scanner with 10 mm of noise.
 struct Bench {
   std::vector<Wall> walls{};
-  std::vector<Post> people{};
+  std::vector<Walker> people{};
   Wiring wiring{};
   RobotModel model = p3dx();
   Pose2 pose{};
@@ -45,37 +39,17 @@ struct Bench {
   std::mt19937 random{7};
   std::normal_distribution<double> noise{0.0, 0.01};
 
-  double range(Vec2 from, Vec2 way) const {
-    double nearest = std::numeric_limits<double>::infinity();
-    for (const Wall& wall : walls) {
-      const Vec2 along = wall.to - wall.from, to = wall.from - from;
-      const double across = cross(way, along);
-      if (std::fabs(across) < 1e-12) continue;
-      const double r = cross(to, along) / across, share = cross(to, way) / across;
-      if (r > 0.0 && share >= 0.0 && share <= 1.0) nearest = std::min(nearest, r);
-    }
-    for (const Post& post : people) {
-      const Vec2 to = post.centre - from;
-      const double ahead = dot(to, way), aside = cross(way, to);
-      const double inside = post.radius_m * post.radius_m - aside * aside;
-      if (ahead > 0.0 && inside > 0.0) nearest = std::min(nearest, ahead - std::sqrt(inside));
-    }
-    return nearest;
-  }
   void look() {
     const LaserModel& laser = model.laser;
     scan.stamp = time_from_seconds(now_s);
     ++scan.sequence;
-    scan.beam_count = laser.beams;
-    scan.first_angle_rad = static_cast<float>(-0.5 * laser.fov_rad);
-    scan.angle_step_rad = static_cast<float>(laser.fov_rad / (laser.beams - 1));
-    scan.range_min_m = 0.05F;
-    scan.range_max_m = 25.0F;
+    tests::lay_beams(scan, laser);
     Pose2 eye = pose * Pose2{mount_ahead_m, 0.0, 0.0} * laser.robot_from_laser;
     eye.heading += mount_turned;
     for (std::size_t k = 0; k < scan.beam_count; ++k) {
       const double angle = wiring.mirrored ? -scan.angle_rad(k) : scan.angle_rad(k);
-      scan.range_m[k] = static_cast<float>(range(eye.position(), direction(eye.heading + angle)) + noise(random));
+      const double metres = trials::range(walls, people, eye.position(), direction(eye.heading + angle));
+      scan.range_m[k] = static_cast<float>(metres + noise(random));
     }
     spoil(scan);
   }
@@ -92,7 +66,7 @@ struct Bench {
     const double turn = 0.01 * (right - left) / model.drive.track_width_m;
     const Vec2 way = direction(pose.heading + 0.5 * turn) * (0.005 * (left + right));
     pose = {pose.x + way.x, pose.y + way.y, wrap_angle(pose.heading + turn)};
-    for (Post& post : people) post.centre = post.centre + post.velocity * 0.01;
+    for (Walker& walker : people) walker.centre = walker.centre + walker.velocity * 0.01;
     if (std::fmod(now_s + 1e-6, 1.0 / model.laser.rate_hz) < 0.01) look();
     const Reason reasons = motion.judge(scan, wheels, {}, time_from_seconds(now_s));
     frozen = has(reasons, Reason::kScanFrozen);
@@ -137,37 +111,33 @@ const std::vector<std::pair<double, double>> kMotions{{0.3, 0.3}, {-0.3, -0.3}, 
 }  // namespace
 
 TEST_CASE("what the scans show is what sound wheels felt, straight, in bends and on the spot") {
-  for (const auto& [left, right] : kMotions) {
-    Bench bench{.walls = room()};
-    CHECK(std::isinf(bench.told_after(2.0, left, right)));
-  }
+  const auto [left, right] = GENERATE(from_range(kMotions));
+  Bench bench{.walls = room()};
+  CHECK(std::isinf(bench.told_after(2.0, left, right)));
 }
 
 TEST_CASE("a wheel reversed with its encoder is told within half a second of driving, and so are both") {
-  for (const auto& [left, right] : {std::pair{-1.0, 1.0}, {1.0, -1.0}, {-1.0, -1.0}}) {
-    for (const double speed : {0.2, 0.3, 0.6}) {
-      Bench bench{.walls = room(), .wiring = {.left = left, .right = right}};
-      CHECK(bench.told_after(1.0, speed, speed) < 0.5);
-    }
-  }
+  const auto [left, right] = GENERATE(std::pair{-1.0, 1.0}, std::pair{1.0, -1.0}, std::pair{-1.0, -1.0});
+  const double speed = GENERATE(0.2, 0.3, 0.6);
+  Bench bench{.walls = room(), .wiring = {.left = left, .right = right}};
+  CHECK(bench.told_after(1.0, speed, speed) < 0.5);
 }
 
 TEST_CASE("swapped wheels and a mirrored scanner are told within half a second of turning, not before") {
-  for (const Wiring& wiring : {Wiring{.swapped = true}, Wiring{.mirrored = true}}) {
-    Bench straight{.walls = room(), .wiring = wiring};
-    CHECK(std::isinf(straight.told_after(2.0, 0.3, 0.3)));
-    for (const double rim : {0.05, 0.15, 0.3}) {  // 0.3 rad/s to 1.8 rad/s
-      Bench turning{.walls = room(), .wiring = wiring};
-      CHECK(turning.told_after(1.0, -rim, rim) < 0.5);
-    }
-    int in_time = 0;
-    for (std::uint32_t draw = 1; draw <= 20; ++draw) {  // of the scanner's noise
-      Bench bending{.walls = room(), .wiring = wiring};
-      bending.random.seed(draw);
-      in_time += bending.told_after(1.0, 0.25, 0.35) < 0.5 ? 1 : 0;
-    }
-    CHECK(in_time >= 18);
+  const Wiring wiring = GENERATE(Wiring{.swapped = true}, Wiring{.mirrored = true});
+  Bench straight{.walls = room(), .wiring = wiring};
+  CHECK(std::isinf(straight.told_after(2.0, 0.3, 0.3)));
+  for (const double rim : {0.05, 0.15, 0.3}) {  // 0.3 rad/s to 1.8 rad/s
+    Bench turning{.walls = room(), .wiring = wiring};
+    CHECK(turning.told_after(1.0, -rim, rim) < 0.5);
   }
+  int in_time = 0;
+  for (std::uint32_t draw = 1; draw <= 20; ++draw) {  // of the scanner's noise
+    Bench bending{.walls = room(), .wiring = wiring};
+    bending.random.seed(draw);
+    in_time += bending.told_after(1.0, 0.25, 0.35) < 0.5 ? 1 : 0;
+  }
+  CHECK(in_time >= 18);
 }
 
 TEST_CASE("wheels that spin while the robot stands are told within half a second, half of their grip is slip") {
@@ -220,29 +190,27 @@ TEST_CASE("walls whose steps look alike from cell to cell are no blind sector") 
 }
 
 TEST_CASE("people who walk along with a sound robot are no fault, in a room, a corridor or on open ground") {
-  const std::vector<Post> company{{{0.2, 0.8}, {0.6, 0.0}}, {{0.3, -0.8}, {0.6, 0.0}}, {{1.5, 0.2}, {0.6, 0.0}}};
-  for (const std::vector<Wall>& walls : {room(), endless_corridor(), std::vector<Wall>{}}) {
-    Bench bench{.walls = walls, .people = company};
-    CHECK(std::isinf(bench.told_after(3.0, 0.6, 0.6)));
-  }
+  const std::vector<Walker> company{{{0.2, 0.8}, {0.6, 0.0}}, {{0.3, -0.8}, {0.6, 0.0}}, {{1.5, 0.2}, {0.6, 0.0}}};
+  const std::vector<Wall> walls = GENERATE(room(), endless_corridor(), std::vector<Wall>{});
+  Bench bench{.walls = walls, .people = company};
+  CHECK(std::isinf(bench.told_after(3.0, 0.6, 0.6)));
 }
 
 TEST_CASE("the same scan again and again is frozen once a wheel has rolled 0.1 m, in a bare corridor, too") {
-  for (const std::vector<Wall>& walls : {room(), endless_corridor()}) {
-    Bench bench{.walls = walls};
-    REQUIRE(std::isinf(bench.told_after(1.0, 0.3, 0.3)));
-    CHECK_FALSE(bench.frozen);
-    bench.spoil = [first = bench.scan](LaserScan& scan) { scan.range_m = first.range_m; };
-    double frozen_s = 0.0;
-    for (; frozen_s < 1.0 && !bench.frozen; frozen_s += 0.01) bench.step(0.3, 0.3);
-    CHECK(frozen_s > 0.3);
-    CHECK(frozen_s < 0.5);
-    for (int k = 0; k < 50; ++k) bench.step(0.0, 0.0);
-    CHECK(bench.frozen);  // though it stands
-    bench.spoil = [](LaserScan&) {};
-    for (int k = 0; k < 20; ++k) bench.step(0.0, 0.0);
-    CHECK_FALSE(bench.frozen);
-  }
+  const std::vector<Wall> walls = GENERATE(room(), endless_corridor());
+  Bench bench{.walls = walls};
+  REQUIRE(std::isinf(bench.told_after(1.0, 0.3, 0.3)));
+  CHECK_FALSE(bench.frozen);
+  bench.spoil = [first = bench.scan](LaserScan& scan) { scan.range_m = first.range_m; };
+  double frozen_s = 0.0;
+  for (; frozen_s < 1.0 && !bench.frozen; frozen_s += 0.01) bench.step(0.3, 0.3);
+  CHECK(frozen_s > 0.3);
+  CHECK(frozen_s < 0.5);
+  for (int k = 0; k < 50; ++k) bench.step(0.0, 0.0);
+  CHECK(bench.frozen);  // though it stands
+  bench.spoil = [](LaserScan&) {};
+  for (int k = 0; k < 20; ++k) bench.step(0.0, 0.0);
+  CHECK_FALSE(bench.frozen);
 }
 
 TEST_CASE("a robot that stands may see the same scan for ever, and so may one where nothing is in reach") {
@@ -257,27 +225,24 @@ TEST_CASE("a robot that stands may see the same scan for ever, and so may one wh
 }
 
 TEST_CASE("a scan that is frozen but for one beam or for noise, or over 80 degrees ahead, is told in half a second") {
-  for (const double noise_m : {0.0, 0.004}) {
-    for (const double half : {4.0, 40.0 / 180.0 * kPi}) {
-      for (const double speed : {0.3, 0.6}) {
-        CAPTURE(noise_m, half, speed);
-        Bench bench{.walls = room()};
-        REQUIRE(std::isinf(bench.told_after(1.0, speed, speed)));
-        std::mt19937 random{3};
-        std::normal_distribution<double> noise{0.0, noise_m};
-        bench.spoil = [&, first = bench.scan](LaserScan& scan) {
-          for (std::size_t k = 0; k < scan.beam_count; ++k) {
-            if (std::fabs(scan.angle_rad(k)) > half) continue;
-            scan.range_m[k] = first.range_m[k] + static_cast<float>(noise_m > 0.0 ? noise(random) : 0.0);
-          }
-          scan.range_m[scan.beam_count / 2] += 0.001F * static_cast<float>(scan.sequence % 7);
-        };
-        double told_s = 0.0;
-        for (; told_s < 1.0 && !bench.step(speed, speed) && !bench.frozen;) told_s += 0.01;
-        CHECK(told_s < 0.5);
-      }
+  const double noise_m = GENERATE(0.0, 0.004);
+  const double half = GENERATE(4.0, 40.0 / 180.0 * kPi);
+  const double speed = GENERATE(0.3, 0.6);
+  CAPTURE(noise_m, half, speed);
+  Bench bench{.walls = room()};
+  REQUIRE(std::isinf(bench.told_after(1.0, speed, speed)));
+  std::mt19937 random{3};
+  std::normal_distribution<double> noise{0.0, noise_m};
+  bench.spoil = [&, first = bench.scan](LaserScan& scan) {
+    for (std::size_t k = 0; k < scan.beam_count; ++k) {
+      if (std::fabs(scan.angle_rad(k)) > half) continue;
+      scan.range_m[k] = first.range_m[k] + static_cast<float>(noise_m > 0.0 ? noise(random) : 0.0);
     }
-  }
+    scan.range_m[scan.beam_count / 2] += 0.001F * static_cast<float>(scan.sequence % 7);
+  };
+  double told_s = 0.0;
+  for (; told_s < 1.0 && !bench.step(speed, speed) && !bench.frozen;) told_s += 0.01;
+  CHECK(told_s < 0.5);
 }
 
 TEST_CASE("a mount turned by 15 degrees, wheels that go 1.3 times as far and ranges 1.3 times too long are told") {
@@ -332,13 +297,12 @@ TEST_CASE("scans that hit nothing and wheels without a number say nothing of mot
 }
 
 TEST_CASE("scans of no sound shape are passed over") {
-  for (const std::uint32_t beams : {0U, 1U, 5000U}) {
-    Bench bench{.walls = room()};
-    REQUIRE(std::isinf(bench.told_after(1.0, 0.3, 0.3)));
-    LaserScan bad = bench.scan;
-    bad.beam_count = beams;
-    ++bad.sequence;
-    const Reason reasons = bench.motion.judge(bad, bench.wheels, {}, time_from_seconds(bench.now_s));
-    CHECK_FALSE(has(reasons, Reason::kMotionMismatch | Reason::kScanFrozen));
-  }
+  const std::uint32_t beams = GENERATE(0U, 1U, 5000U);
+  Bench bench{.walls = room()};
+  REQUIRE(std::isinf(bench.told_after(1.0, 0.3, 0.3)));
+  LaserScan bad = bench.scan;
+  bad.beam_count = beams;
+  ++bad.sequence;
+  const Reason reasons = bench.motion.judge(bad, bench.wheels, {}, time_from_seconds(bench.now_s));
+  CHECK_FALSE(has(reasons, Reason::kMotionMismatch | Reason::kScanFrozen));
 }

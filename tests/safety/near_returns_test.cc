@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "firmware/safety/stop_zone.h"
+#include "tests/safety/scans.h"
 #include "tests/support/catch.h"
 
 using namespace jaywalk;
@@ -18,18 +19,13 @@ const auto kSide = static_cast<float>(kRobot.footprint.half_width_m);
 /// A laser that looks all round at (0, 0), a beam a degree, beside a straight wall on its left: along x, from `from_x`
 /// on.
 LaserScan beside_wall(float gap_m, float from_x = -9.0F) {
-  LaserScan scan;
-  scan.sequence = 1;
-  scan.beam_count = 361;
-  scan.first_angle_rad = static_cast<float>(-kPi);
-  scan.angle_step_rad = static_cast<float>(kPi / 180.0);
-  scan.range_min_m = 0.02F;
-  scan.range_max_m = 20.0F;
+  LaserScan scan = tests::scan_of(
+      {.robot_from_laser = {}, .fov_rad = 2.0 * kPi, .beams = 361, .range_min_m = 0.02, .range_max_m = 20.0}, INFINITY);
   for (std::size_t beam = 0; beam < scan.beam_count; ++beam) {
     const double rad = scan.angle_rad(beam);
     const double range = static_cast<double>(kSide + gap_m) / std::sin(rad);
     const bool hits = range > 0.0 && range < 15.0 && range * std::cos(rad) >= static_cast<double>(from_x);
-    scan.range_m[beam] = hits ? static_cast<float>(range) : INFINITY;
+    if (hits) scan.range_m[beam] = static_cast<float>(range);
   }
   return scan;
 }

@@ -1,24 +1,14 @@
 // The table of reasons and the documents that explain each of them.
 #include "firmware/safety/reasons.h"
 
-#include <fstream>
-#include <iterator>
-
+#include "hal/text_file.h"
 #include "tests/support/catch.h"
 
 using namespace jaywalk;
 
-namespace {
-
-std::string document(const std::string& name) {
-  std::ifstream file(std::string(JAYWALK_DOCS) + name);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
-}  // namespace
-
 TEST_CASE("each reason has its own bit, name and words, and the documents explain it") {
-  const std::string remedies = document("/how-to/it-stands-still.md"), kinds = document("/explanation/safety.md");
+  const std::string remedies = text_in(JAYWALK_DOCS "/how-to/it-stands-still.md"),
+                    kinds = text_in(JAYWALK_DOCS "/explanation/safety.md");
   REQUIRE(remedies.size() > 1000);
   for (const ReasonRow& row : kReasons) {
     CAPTURE(row.name);

@@ -131,18 +131,17 @@ TEST_CASE("a scanner that shakes in its mount was not carried") {
 }
 
 TEST_CASE("a robot that is carried while its drives are silent, or restart, is told of when they speak") {
-  for (const bool restarts : {false, true}) {
-    CAPTURE(restarts);
-    Standing robot(4, 0);
-    robot.silent = true;
-    robot.tick(1.0);
-    robot.pose = robot.pose * Pose2{1.0, 0.0, 0.0};
-    CHECK(robot.tick(1.0) == Says::kNothing);
-    robot.silent = false;
-    if (restarts) robot.wheels = {.sequence = 0, .left_rad = 12.0};
-    robot.tick(1.0);
-    CHECK(robot.told_s);
-  }
+  const bool restarts = GENERATE(false, true);
+  CAPTURE(restarts);
+  Standing robot(4, 0);
+  robot.silent = true;
+  robot.tick(1.0);
+  robot.pose = robot.pose * Pose2{1.0, 0.0, 0.0};
+  CHECK(robot.tick(1.0) == Says::kNothing);
+  robot.silent = false;
+  if (restarts) robot.wheels = {.sequence = 0, .left_rad = 12.0};
+  robot.tick(1.0);
+  CHECK(robot.told_s);
 }
 
 TEST_CASE("wheels that roll begin the rest anew") {

@@ -5,29 +5,19 @@
 #include <random>
 #include <vector>
 
+#include "tests/safety/trial_room.h"
 #include "tests/support/catch.h"
 
 using namespace jaywalk;
 
 namespace {
 
-/// A scan with beam directions over `view_rad` and all ranges 0 m; the caller fills in the ranges.
-LaserScan scan_of(std::uint32_t beams, double view_rad, float reach_m) {
-  LaserScan scan;
-  scan.sequence = 1;
-  scan.beam_count = beams;
-  scan.first_angle_rad = static_cast<float>(-0.5 * view_rad);
-  scan.angle_step_rad = static_cast<float>(view_rad / (beams - 1));
-  scan.range_min_m = 0.05F;
-  scan.range_max_m = reach_m;
-  return scan;
-}
-
 /// An LMS200's view, a beam a degree over 180, of a wall x = `ahead_m`; with `left_m` of another, y = left_m, which
 /// hides the first one from where they meet.
 LaserScan walls(double ahead_m, double left_m, double noise_m, std::mt19937_64& engine) {
   std::normal_distribution<double> noise(0.0, noise_m);
-  LaserScan scan = scan_of(181, kPi, 8.0F);
+  LaserScan scan = tests::scan_of(
+      {.robot_from_laser = {}, .fov_rad = kPi, .beams = 181, .range_min_m = 0.05, .range_max_m = 8.0}, 0.0F);
   for (std::size_t beam = 0; beam < scan.beam_count; ++beam) {
     const Vec2 along = direction(scan.angle_rad(beam));
     const double ahead = along.x > 1e-3 ? ahead_m / along.x : 100.0, left = along.y > 1e-3 ? left_m / along.y : 100.0;
@@ -49,29 +39,25 @@ Vec2 claimed_std_m(double left_m, std::uint64_t seed) {
 
 constexpr double kPost_m = 0.075;  ///< radius of a post
 
-/// Two fences of posts that touch, 4.5 m apart, one across behind the robot, and 80 single posts ahead: their middles.
-std::vector<Vec2> posts(std::mt19937_64& engine) {
-  std::vector<Vec2> all;
-  for (double x = -2.9; x < 6.5; x += 2.0 * kPost_m) all.insert(all.end(), {{x, -2.25}, {x, 2.25}});
-  for (double y = -2.2; y < 2.2; y += 2.0 * kPost_m) all.push_back({-2.9, y});
+/// Two fences of posts that touch, 4.5 m apart, one across behind the robot, and 80 single posts ahead.
+std::vector<trials::Walker> posts(std::mt19937_64& engine) {
+  std::vector<trials::Walker> all;
+  const auto put = [&all](Vec2 place) { all.push_back({place, {}, kPost_m}); };
+  for (double x = -2.9; x < 6.5; x += 2.0 * kPost_m) put({x, -2.25}), put({x, 2.25});
+  for (double y = -2.2; y < 2.2; y += 2.0 * kPost_m) put({-2.9, y});
   std::uniform_real_distribution<double> ahead(1.5, 6.5), aside(-2.0, 2.0);
-  for (int k = 0; k < 80; ++k) all.push_back({ahead(engine), aside(engine)});
+  for (int k = 0; k < 80; ++k) put({ahead(engine), aside(engine)});
   return all;
 }
 
 /// View of round things over 270 degrees, a beam each third of a degree.
-LaserScan among(const std::vector<Vec2>& middles, double radius_m, const Pose2& laser, double noise_m,
+LaserScan among(const std::vector<trials::Walker>& things, const Pose2& laser, double noise_m,
                 std::mt19937_64& engine) {
   std::normal_distribution<double> noise(0.0, noise_m);
-  LaserScan scan = scan_of(811, 1.5 * kPi, 25.0F);
+  LaserScan scan = tests::scan_of(p3dx().laser, 0.0F);
   for (std::size_t beam = 0; beam < scan.beam_count; ++beam) {
     const Vec2 along = direction(laser.heading + scan.angle_rad(beam));
-    double nearest = 30.0;
-    for (const Vec2 middle : middles) {
-      const Vec2 to = middle - laser.position();
-      const double ahead = dot(to, along), inside = radius_m * radius_m - cross(along, to) * cross(along, to);
-      if (ahead > 0.0 && inside > 0.0) nearest = std::min(nearest, ahead - std::sqrt(inside));
-    }
+    const double nearest = std::min(30.0, trials::range({}, things, laser.position(), along));
     scan.range_m[beam] = static_cast<float>(nearest + (noise_m > 0.0 ? noise(engine) : 0.0));
   }
   return scan;
@@ -85,9 +71,9 @@ TEST_CASE("among posts no match is much more likely than the truth") {
   double most = 0.0;
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     std::mt19937_64 engine(seed);
-    const std::vector<Vec2> world = posts(engine);
+    const std::vector<trials::Walker> world = posts(engine);
     const Pose2 moved{0.015, 0.0, seed % 2 == 0 ? 0.05 : -0.05};
-    const LaserScan kept = among(world, kPost_m, {}, 0.01, engine), now = among(world, kPost_m, moved, 0.01, engine);
+    const LaserScan kept = among(world, {}, 0.01, engine), now = among(world, moved, 0.01, engine);
     ScanPair pair{Pose2{}};
     REQUIRE(pair.usable(kept));
     pair.keep(kept);
@@ -103,7 +89,7 @@ TEST_CASE("a round surface is where it was: its bend is no error") {
   // The sagitta, by hand: a circle of 0.5 m bends by 0.1 x 0.1 / (2 x 0.5) = 10 mm over 2 x 0.1 m. From its line of
   // least squares the middle is off by a third of that (measured up to 7 mm where it is seen at a slant).
   std::mt19937_64 engine(1);
-  const LaserScan scan = among({{2.0, 0.0}}, 0.5, {}, 0.0, engine);
+  const LaserScan scan = among({{{2.0, 0.0}, {}, 0.5}}, {}, 0.0, engine);
   ScanPair pair{Pose2{}};
   REQUIRE(pair.usable(scan));
   pair.keep(scan);

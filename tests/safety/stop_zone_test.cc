@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "tests/safety/scans.h"
 #include "tests/support/catch.h"
 
 using namespace jaywalk;
@@ -10,14 +11,9 @@ namespace {
 
 /// A scan of 1801 beams over 360 degrees that sees single points only.
 LaserScan scan_of(std::initializer_list<Vec2> points) {
-  LaserScan scan;
-  scan.sequence = 1;
-  scan.beam_count = 1801;
-  scan.first_angle_rad = static_cast<float>(-kPi);
-  scan.angle_step_rad = static_cast<float>(2 * kPi / 1800);
-  scan.range_min_m = 0.02F;
-  scan.range_max_m = 20.0F;
-  scan.range_m.fill(INFINITY);
+  LaserScan scan = tests::scan_of(
+      {.robot_from_laser = {}, .fov_rad = 2.0 * kPi, .beams = 1801, .range_min_m = 0.02, .range_max_m = 20.0},
+      INFINITY);
   for (const Vec2 p : points) {
     const auto beam = static_cast<std::size_t>((jaywalk::atan2(p.y, p.x) + kPi) / (2 * kPi) * 1800.0 + 0.5);
     scan.range_m[beam] = static_cast<float>(norm(p));

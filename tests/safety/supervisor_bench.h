@@ -3,13 +3,14 @@
 #include <limits>
 
 #include "firmware/safety/supervisor.h"
+#include "tests/safety/scans.h"
 #include "tests/support/catch.h"
 
 namespace jaywalk::supervised {
 
 /// A bench for the supervisor: everything fresh and free unless a test spoils it; time in ticks of 20 ms.
 struct Bench {
-  LaserScan scan;
+  LaserScan scan = tests::scan_of(p3dx().laser, 10.0F);
   WheelState wheels;
   OperatorInput input;
   Time now = time_from_seconds(1.0);
@@ -22,13 +23,7 @@ struct Bench {
 
   explicit Bench(bool latches_all = false, const RobotModel& model = p3dx())
       : supervisor({.model = model, .latches_all = latches_all}) {
-    scan.sequence = wheels.sequence = 1;
-    scan.beam_count = 811;
-    scan.first_angle_rad = static_cast<float>(-0.75 * kPi);
-    scan.angle_step_rad = static_cast<float>(1.5 * kPi / 810);
-    scan.range_min_m = 0.05F;
-    scan.range_max_m = 25.0F;
-    scan.range_m.fill(10.0F);
+    wheels.sequence = 1;
     scan.stamp = wheels.stamp = now;
     input.has_goal = true;
   }

@@ -93,7 +93,6 @@ class TrialRobot {
            has(reasons_, Reason::kScanFrozen);
   }
   [[nodiscard]] Reason reasons() const { return reasons_; }
-  [[nodiscard]] const RobotModel& model() const { return setting_.model; }
   /// What really moves.
   [[nodiscard]] double speed_mps() const { return std::fabs(truth_.v_mps); }
   /// The faster wheel's rim, as it says.
@@ -108,7 +107,7 @@ class TrialRobot {
                           fault_ == Fault::kRangesFar || fault_ == Fault::kRangesShort;
     if (fault_ == Fault::kMountTurning && std::fabs(mount_turned()) < 15.0 / 180.0 * kPi) return false;
     if (fault_ == Fault::kCounterStuck) return std::fabs(right_mps_) > 0.15;
-    if (fault_ == Fault::kCountersStuck) return std::max(std::fabs(left_mps_), std::fabs(right_mps_)) > 0.15;
+    if (fault_ == Fault::kCountersStuck) return wheel_mps() > 0.15;
     return drives || (turns && !only_way);
   }
 
@@ -187,7 +186,7 @@ class TrialRobot {
     if (!reports_.empty()) comes_s = std::max(comes_s, reports_.back().first);
     read_.stamp = time_from_seconds(base_.stamped_as_read ? now_s_ : comes_s);
     ++read_.sequence;
-    if (!left_stuck) read_.left_rad = left_rad_ - left_gone_;
+    if (!left_stuck) read_.left_rad = left_rad_;
     if (!right_stuck) read_.right_rad = right_rad_;
     read_.left_radps = left_mps_ / radius;
     read_.right_radps = right_mps_ / radius;
@@ -257,7 +256,7 @@ class TrialRobot {
   Pose2 pose_;
   Twist2 truth_, wanted_, target_;
   double now_s_ = 1.0, next_scan_s_ = 1.0, until_s_ = 0.0;
-  double left_mps_ = 0.0, right_mps_ = 0.0, left_rad_ = 0.0, right_rad_ = 0.0, left_gone_ = 0.0;
+  double left_mps_ = 0.0, right_mps_ = 0.0, left_rad_ = 0.0, right_rad_ = 0.0;
   double left_slip_ = 0.0, right_slip_ = 0.0;
   int steps_ = 0;
   double gain_ = 1.0, turned_ = 0.0, turns_radps_ = 0.0, jitter_m_ = 0.0, stuck_from_ = 0.0, stuck_to_ = 0.0;

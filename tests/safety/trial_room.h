@@ -4,10 +4,10 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <span>
 #include <vector>
 
-#include "hal/types/laser_scan.h"
-#include "hal/types/robot_model.h"
+#include "tests/safety/scans.h"
 
 namespace jaywalk::trials {
 
@@ -25,6 +25,25 @@ struct Walker {
   Vec2 centre, velocity;
   double radius_m = 0.2;
 };
+
+/// Distance that a ray runs; infinity where it meets nothing.
+[[nodiscard]] inline double range(std::span<const Wall> walls, std::span<const Walker> walkers, Vec2 from, Vec2 way) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const Wall& wall : walls) {
+    const Vec2 along = wall.to - wall.from, to = wall.from - from;
+    const double across = way.x * along.y - way.y * along.x;
+    if (std::fabs(across) < 1e-12) continue;
+    const double r = (to.x * along.y - to.y * along.x) / across, share = (to.x * way.y - to.y * way.x) / across;
+    if (r > 0.0 && share >= 0.0 && share <= 1.0) nearest = std::min(nearest, r);
+  }
+  for (const Walker& walker : walkers) {
+    const Vec2 to = walker.centre - from;
+    const double ahead = to.x * way.x + to.y * way.y, aside = way.x * to.y - way.y * to.x;
+    const double inside = walker.radius_m * walker.radius_m - aside * aside;
+    if (ahead > 0.0 && inside > 0.0) nearest = std::min(nearest, ahead - std::sqrt(inside));
+  }
+  return nearest;
+}
 
 /// Turned against the axes, 5 to 11 m by 4 to 8 m, with 3 to 9 pieces of furniture.
 class Room {
@@ -63,24 +82,7 @@ class Room {
       walker.velocity = turned(way, turn_);
     }
   }
-  /// How far a ray runs; infinity where it meets nothing.
-  [[nodiscard]] double range(Vec2 from, Vec2 way) const {
-    double nearest = std::numeric_limits<double>::infinity();
-    for (const Wall& wall : walls_) {
-      const Vec2 along = wall.to - wall.from, to = wall.from - from;
-      const double across = way.x * along.y - way.y * along.x;
-      if (std::fabs(across) < 1e-12) continue;
-      const double r = (to.x * along.y - to.y * along.x) / across, share = (to.x * way.y - to.y * way.x) / across;
-      if (r > 0.0 && share >= 0.0 && share <= 1.0) nearest = std::min(nearest, r);
-    }
-    for (const Walker& walker : walkers_) {
-      const Vec2 to = walker.centre - from;
-      const double ahead = to.x * way.x + to.y * way.y, aside = way.x * to.y - way.y * to.x;
-      const double inside = walker.radius_m * walker.radius_m - aside * aside;
-      if (ahead > 0.0 && inside > 0.0) nearest = std::min(nearest, ahead - std::sqrt(inside));
-    }
-    return nearest;
-  }
+  [[nodiscard]] double range(Vec2 from, Vec2 way) const { return trials::range(walls_, walkers_, from, way); }
 
  private:
   static Vec2 turned(Vec2 v, double by) {
@@ -101,11 +103,7 @@ class Room {
 
 /// A scan's ranges from a pose of the laser, without noise.
 inline void sweep(const Room& room, const Pose2& map_from_laser, const LaserModel& laser, LaserScan& scan) {
-  scan.beam_count = laser.beams;
-  scan.first_angle_rad = static_cast<float>(-0.5 * laser.fov_rad);
-  scan.angle_step_rad = static_cast<float>(laser.fov_rad / (laser.beams - 1));
-  scan.range_min_m = static_cast<float>(laser.range_min_m);
-  scan.range_max_m = static_cast<float>(laser.range_max_m);
+  tests::lay_beams(scan, laser);
   for (std::size_t k = 0; k < scan.beam_count; ++k) {
     const double way = map_from_laser.heading + scan.angle_rad(k);
     scan.range_m[k] =

@@ -1,8 +1,8 @@
 // Two scanners: each is judged by itself, and what they prove is what they prove together.
 #include <functional>
-#include <limits>
 
 #include "firmware/safety/supervisor.h"
+#include "tests/safety/trial_room.h"
 #include "tests/support/catch.h"
 
 using namespace jaywalk;
@@ -21,6 +21,11 @@ RobotModel chair(bool rear) {
   return model;
 }
 
+constexpr trials::Wall kHall[] = {{{-11.0, -4.0}, {11.0, -4.0}},
+                                  {{-11.0, 4.0}, {11.0, 4.0}},
+                                  {{10.0, -5.0}, {10.0, 5.0}},
+                                  {{-10.0, -5.0}, {-10.0, 5.0}}};
+
 /// A robot that stands in a hall of 20 m x 8 m, whatever it is permitted.
 struct Stand {
   RobotModel model;
@@ -32,8 +37,8 @@ struct Stand {
   OperatorInput input;
   /// What becomes of a scanner's new scan before it is judged; false: it does not come.
   std::function<bool(LaserScan&)> spoil = [](LaserScan&) { return true; };
-  /// A post's middle, in the robot's frame; none where it is far away.
-  Vec2 post{100.0, 0.0};
+  /// In the robot's frame; none where it is far away.
+  trials::Walker post{{100.0, 0.0}, {}, 0.1};
 
   explicit Stand(const RobotModel& robot) : model(robot), supervisor({.model = robot, .latches_all = true}) {
     others.resize(robot.other_lasers.size());
@@ -59,19 +64,11 @@ struct Stand {
     if (into.sequence > 0 && to_seconds(now - into.stamp) < 1.0 / laser.rate_hz - 1e-6) return;
     LaserScan scan;
     scan.scanner = static_cast<std::uint8_t>(scanner);
-    scan.stamp = now, scan.sequence = into.sequence + 1, scan.beam_count = laser.beams;
-    scan.first_angle_rad = static_cast<float>(-0.5 * laser.fov_rad);
-    scan.angle_step_rad = static_cast<float>(laser.fov_rad / (laser.beams - 1));
-    scan.range_min_m = 0.05F, scan.range_max_m = 25.0F;
+    scan.stamp = now, scan.sequence = into.sequence + 1;
+    tests::lay_beams(scan, laser);
     for (std::size_t k = 0; k < scan.beam_count; ++k) {
-      const Vec2 from = laser.robot_from_laser.position(),
-                 along = direction(laser.robot_from_laser.heading + scan.angle_rad(k));
-      double range = std::min((along.x > 0.0 ? 10.0 - from.x : -10.0 - from.x) / along.x,
-                              (along.y > 0.0 ? 4.0 - from.y : -4.0 - from.y) / along.y);
-      const Vec2 to = post - from;
-      const double aside = cross(along, to), ahead = dot(along, to);
-      if (std::fabs(aside) < 0.1 && ahead > 0.0) range = std::min(range, ahead - std::sqrt(0.01 - aside * aside));
-      scan.range_m[k] = static_cast<float>(range);
+      const Vec2 along = direction(laser.robot_from_laser.heading + scan.angle_rad(k));
+      scan.range_m[k] = static_cast<float>(trials::range(kHall, {&post, 1}, laser.robot_from_laser.position(), along));
     }
     if (spoil(scan)) into = scan;
   }
@@ -82,7 +79,9 @@ constexpr Twist2 kBack{-0.5, 0.0}, kAhead{0.5, 0.0};
 }  // namespace
 
 TEST_CASE("backward it goes slowly where one scanner looks ahead, and as fast as wanted where another looks back") {
-  CHECK(Stand(chair(false)).ticks(100, kBack).permitted.v_mps == Approx(-0.3));
+  const Verdict one = Stand(chair(false)).ticks(100, kBack);
+  CHECK(one.permitted.v_mps == Approx(-0.3));
+  CHECK(has(one.reasons, Reason::kUnwatched));
   const Verdict two = Stand(chair(true)).ticks(100, kBack);
   CHECK(two.permitted.v_mps == Approx(-0.5));
   CHECK(two.reasons == Reason::kNone);
@@ -90,35 +89,31 @@ TEST_CASE("backward it goes slowly where one scanner looks ahead, and as fast as
 }
 
 TEST_CASE("what only the rear scanner sees stops it on its way back") {
-  for (const bool rear : {false, true}) {
-    Stand stand(chair(rear));
-    stand.post = {-0.35 - 0.1 - 0.05, 0.0};  // its rim 5 cm behind the body
-    const Verdict verdict = stand.ticks(60, kBack);
-    CHECK(has(verdict.reasons, Reason::kStopZone) == rear);
-    INFO(verdict.permitted.v_mps << " m/s: " << to_string(verdict.reasons));
-    CHECK((verdict.permitted.v_mps > -0.11) == rear);
-  }
+  const bool rear = GENERATE(false, true);
+  Stand stand(chair(rear));
+  stand.post.centre = {-0.35 - 0.1 - 0.05, 0.0};  // its rim 5 cm behind the body
+  const Verdict verdict = stand.ticks(60, kBack);
+  CHECK(has(verdict.reasons, Reason::kStopZone) == rear);
+  INFO(verdict.permitted.v_mps << " m/s: " << to_string(verdict.reasons));
+  CHECK((verdict.permitted.v_mps > -0.11) == rear);
 }
 
 TEST_CASE("one of two scanners that falls silent, is blinded, or shows nothing is a fault that names it") {
-  const auto nothing = [](LaserScan& scan) { scan.range_m.fill(0.0F); };
-  for (const std::uint8_t lost : {std::uint8_t{0}, std::uint8_t{1}}) {
-    for (const bool silent : {true, false}) {
-      Stand stand(chair(true));
-      CHECK(stand.ticks(50, kAhead).permitted.v_mps == 0.5);
-      stand.spoil = [&](LaserScan& scan) {
-        if (scan.scanner != lost) return true;
-        nothing(scan);
-        return !silent;
-      };
-      const Verdict verdict = stand.ticks(50, kAhead);
-      CHECK(has(verdict.reasons, silent ? Reason::kScanStale : Reason::kScanInvalid));
-      CHECK(has(verdict.reasons, Reason::kLatched));
-      CHECK(verdict.permitted.v_mps == 0.0);
-      CHECK(verdict.faulty_scanners == (1U << lost));
-      CHECK(to_string(verdict.reasons, verdict.faulty_scanners).ends_with(lost == 0 ? "|scanner_1" : "|scanner_2"));
-    }
-  }
+  const int lost = GENERATE(0, 1);
+  const bool silent = GENERATE(true, false);
+  Stand stand(chair(true));
+  CHECK(stand.ticks(50, kAhead).permitted.v_mps == 0.5);
+  stand.spoil = [&](LaserScan& scan) {
+    if (scan.scanner != lost) return true;
+    scan.range_m.fill(0.0F);
+    return !silent;
+  };
+  const Verdict verdict = stand.ticks(50, kAhead);
+  CHECK(has(verdict.reasons, silent ? Reason::kScanStale : Reason::kScanInvalid));
+  CHECK(has(verdict.reasons, Reason::kLatched));
+  CHECK(verdict.permitted.v_mps == 0.0);
+  CHECK(verdict.faulty_scanners == (1U << lost));
+  CHECK(to_string(verdict.reasons, verdict.faulty_scanners).ends_with(lost == 0 ? "|scanner_1" : "|scanner_2"));
 }
 
 TEST_CASE("it does not set out before each of its scanners has been seen") {
@@ -136,7 +131,7 @@ TEST_CASE("it reckons with the slower of its scanners") {
     RobotModel model = chair(true);
     model.other_lasers[0].rate_hz = rear_hz;
     Stand stand(model);
-    stand.post = {0.75 + 0.1 + 0.3, 0.0};
+    stand.post.centre = {0.75 + 0.1 + 0.3, 0.0};
     return stand.ticks(40, kAhead).permitted.v_mps;
   };
   CHECK(free_way_m(5.0) < free_way_m(15.0) - 0.05);

@@ -1,6 +1,4 @@
 // Where nothing watches, no part of the body goes faster than 0.3 m/s (SAFETY 9).
-#include <array>
-
 #include "tests/safety/driven_robot.h"
 #include "tests/support/catch.h"
 
@@ -51,18 +49,14 @@ double fastest_unseen_mps(const RobotModel& model, const Twist2& twist) {
 }  // namespace
 
 TEST_CASE("whatever the laser's mount, no part of the body moves faster than 0.3 m/s into what it does not see") {
-  constexpr std::array kMounts{Pose2{0.7, 0.0, 0.0}, Pose2{0.85, 0.235, 0.735}, Pose2{0.0, 0.0, 0.0},
-                               Pose2{-0.3, 0.0, kPi}, Pose2{0.2, -0.3, -1.5}};
-  for (const Pose2& mount : kMounts) {
-    for (const double fov_deg : {180.0, 240.0, 270.0}) {
-      const RobotModel chair = chair_with(mount, fov_deg * kDeg);
-      for (double v = -0.6; v <= 0.61; v += 0.3) {
-        for (double w = -1.2; w <= 1.21; w += 0.3) {
-          INFO("laser at " << mount.x << ", " << mount.y << ", " << mount.heading << ", " << fov_deg << " degrees; "
-                           << v << " m/s, " << w << " rad/s");
-          CHECK(fastest_unseen_mps(chair, permitted(chair, {v, w}).permitted) < 0.3 + 0.01);
-        }
-      }
+  const Pose2 mount = GENERATE(Pose2{0.7, 0.0, 0.0}, Pose2{0.85, 0.235, 0.735}, Pose2{0.0, 0.0, 0.0},
+                               Pose2{-0.3, 0.0, kPi}, Pose2{0.2, -0.3, -1.5});
+  const double fov_deg = GENERATE(180.0, 240.0, 270.0);
+  const RobotModel chair = chair_with(mount, fov_deg * kDeg);
+  for (double v = -0.6; v <= 0.61; v += 0.3) {
+    for (double w = -1.2; w <= 1.21; w += 0.3) {
+      CAPTURE(mount.x, mount.y, mount.heading, fov_deg, v, w);
+      CHECK(fastest_unseen_mps(chair, permitted(chair, {v, w}).permitted) < 0.3 + 0.01);
     }
   }
 }
@@ -70,12 +64,11 @@ TEST_CASE("whatever the laser's mount, no part of the body moves faster than 0.3
 TEST_CASE("a wheelchair's pivot swings its rear corners at 0.3 m/s, either way round") {
   // 0.35 m back and 0.325 m aside: 0.4776 m from the axle, so 0.6281 rad/s. A laser of 270 degrees at its front does
   // not see them.
-  for (const double way : {1.0, -1.0}) {
-    const Verdict verdict = permitted(wheelchair(), {0.0, way});
-    CHECK(verdict.permitted.w_radps == Approx(way * 0.6281).epsilon(1e-3));
-    CHECK(has(verdict.reasons, Reason::kUnwatched));
-    CHECK(permitted(wheelchair(), {0.0, 0.62 * way}).reasons == Reason::kNone);
-  }
+  const double way = GENERATE(1.0, -1.0);
+  const Verdict verdict = permitted(wheelchair(), {0.0, way});
+  CHECK(verdict.permitted.w_radps == Approx(way * 0.6281).epsilon(1e-3));
+  CHECK(has(verdict.reasons, Reason::kUnwatched));
+  CHECK(permitted(wheelchair(), {0.0, 0.62 * way}).reasons == Reason::kNone);
 }
 
 TEST_CASE("a laser that sees all round holds up nothing") {
@@ -85,10 +78,9 @@ TEST_CASE("a laser that sees all round holds up nothing") {
 }
 
 TEST_CASE("curves ahead are not held up by a corner that swings out a little behind") {
-  for (const double w : {-0.6, -0.3, 0.3, 0.6}) {
-    CHECK(permitted(wheelchair(), {0.6, w}).reasons == Reason::kNone);
-    CHECK(permitted(p3dx(), {0.6, 2.0 * w}).reasons == Reason::kNone);
-  }
+  const double w = GENERATE(-0.6, -0.3, 0.3, 0.6);
+  CHECK(permitted(wheelchair(), {0.6, w}).reasons == Reason::kNone);
+  CHECK(permitted(p3dx(), {0.6, 2.0 * w}).reasons == Reason::kNone);
 }
 
 TEST_CASE("a nearly round robot with 270 degrees in its middle still turns on the spot at 0.8 rad/s") {

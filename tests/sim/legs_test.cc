@@ -57,8 +57,7 @@ TEST_CASE("who stops puts his feet side by side") {
 }
 
 TEST_CASE("a laser sees the legs of who has them and touching goes by the disc") {
-  const Scratch scratch;
-  Scenario scenario = in_room(scratch);
+  Scenario scenario = in_room();
   scenario.wanderers = {{.count = 2}, {.count = 1, .legs = true}};
   World world(scenario, 1);
   for (int k = 0; k < 500; ++k) world.step();

@@ -19,15 +19,14 @@ struct BadMap {
 }  // namespace
 
 TEST_CASE("bad maps are refused with file, line and cause") {
-  const Scratch scratch;
-  scratch.write("two.pgm", "P2 2 1 255 0 255");
-  scratch.write("cut.pgm", "P5 4 4 255 abc");
-  scratch.write("odd.pgm", "P2 2 1 255 0 256");
-  scratch.write("huge.pgm", "P2 100000 100000 255 0");
-  scratch.write("deep.pgm", "P2 1 1 70000 0");
-  scratch.write("size.pgm", "P5 100");
-  scratch.write("text.png", "hello");
-  scratch.write("cut.png", "\x89PNG\r\n\x1a\n");
+  folder().write("two.pgm", "P2 2 1 255 0 255");
+  folder().write("cut.pgm", "P5 4 4 255 abc");
+  folder().write("odd.pgm", "P2 2 1 255 0 256");
+  folder().write("huge.pgm", "P2 100000 100000 255 0");
+  folder().write("deep.pgm", "P2 1 1 70000 0");
+  folder().write("size.pgm", "P5 100");
+  folder().write("text.png", "hello");
+  folder().write("cut.png", "\x89PNG\r\n\x1a\n");
   const auto with_image = [](const std::string& image) {
     return "image: " + image + "\nresolution: 0.1\norigin: [0, 0, 0]\n";
   };
@@ -67,33 +66,31 @@ TEST_CASE("bad maps are refused with file, line and cause") {
       {"negative radius", MapKind::kCylinders, "1 2 -0.1\n", "bad:1: a cylinder needs a radius above 0"},
       {"no cylinder", MapKind::kCylinders, "# none\n", "bad:1: holds no cylinder"}};
   for (const BadMap& bad : cases) {
-    const std::string file = scratch.write("bad", bad.text);
-    const std::string message = refusal([&] { static_cast<void>(load_wall_map(bad.kind, file)); });
+    const std::string file = folder().write("bad", bad.text);
+    const std::string message = refusal_of([&] { return load_wall_map(bad.kind, file); });
     INFO(bad.why << ": " << message);
-    CHECK(says(message, bad.place));
-    CHECK(says(message, "; "));  // a remedy
+    CHECK(holds(message, bad.place));
+    CHECK(holds(message, "; "));  // a remedy
   }
 }
 
 TEST_CASE("a byte order mark is no part of a map") {
-  const Scratch scratch;
   const std::string mark = "\xEF\xBB\xBF";
-  CHECK(load_aria_map(scratch.write("m.map", mark + "2D-Map\nLINES\n0 0 1 1\n")).segments.size() == 1);
-  CHECK(load_cylinder_map(scratch.write("c.txt", mark + "1 2 0.1\n")).discs.size() == 1);
+  CHECK(load_aria_map(folder().write("m.map", mark + "2D-Map\nLINES\n0 0 1 1\n")).segments.size() == 1);
+  CHECK(load_cylinder_map(folder().write("c.txt", mark + "1 2 0.1\n")).discs.size() == 1);
 }
 
 TEST_CASE("a map that is not there is refused, whatever its kind") {
   for (const MapKind kind : {MapKind::kYaml, MapKind::kAria, MapKind::kCylinders}) {
-    CHECK(says(refusal([&] { static_cast<void>(load_wall_map(kind, "/nowhere/at.all")); }), "/nowhere/at.all: "));
+    CHECK(holds(refusal_of([&] { return load_wall_map(kind, "/nowhere/at.all"); }), "/nowhere/at.all: "));
   }
 }
 
 TEST_CASE("grey between the thresholds is unknown and no wall, darker is wall, negate turns it round") {
-  const Scratch scratch;
-  scratch.write("grey.pgm", "P2 4 1 255  0 80 205 254");  // occupancies 1.0, 0.69, 0.2, 0.004
+  folder().write("grey.pgm", "P2 4 1 255  0 80 205 254");  // occupancies 1.0, 0.69, 0.2, 0.004
   const auto solid = [&](const std::string& more) {
-    const auto file = scratch.write("grey.yaml", "image: grey.pgm\nresolution: 1\norigin: [0, 0, 0]\n" + more);
-    return load_raster_map(file).raster.solid;
+    const auto file = folder().write("grey.yaml", "image: grey.pgm\nresolution: 1\norigin: [0, 0, 0]\n" + more);
+    return load_raster(file).solid;
   };
   using Cells = std::vector<std::uint8_t>;
   CHECK(solid("") == Cells{1, 1, 0, 0});
@@ -112,14 +109,13 @@ TEST_CASE("a solid block of two by one cells has four edges, each in one piece")
 }
 
 TEST_CASE("MobileSim maps: LINES are walls, DATA only where there are none, carriage returns are no matter") {
-  const Scratch scratch;
-  const WallMap lines = load_aria_map(scratch.write(
+  const WallMap lines = load_aria_map(folder().write(
       "a.map", "2D-Map\r\nCairn: Goal 1 2 0 \"\" ICON \"x\"\r\nLINES\r\n-500 0 1500 250\r\nDATA\r\n1 2\r\n"));
   REQUIRE(lines.segments.size() == 1);
   CHECK(lines.segments[0].from == Vec2{-0.5, 0.0});
   CHECK(lines.segments[0].to == Vec2{1.5, 0.25});
   CHECK(lines.discs.empty());
-  const WallMap points = load_aria_map(scratch.write("b.map", "2D-Map\nDATA\n1000 2000\n3000 4000\n"));
+  const WallMap points = load_aria_map(folder().write("b.map", "2D-Map\nDATA\n1000 2000\n3000 4000\n"));
   REQUIRE(points.discs.size() == 2);
   CHECK(points.discs[1].centre == Vec2{3.0, 4.0});
   CHECK(points.discs[1].radius_m == 0.02);

@@ -36,28 +36,23 @@ std::string png(std::uint32_t width, int depth, int kind, const std::string& sam
 }
 
 Raster read(const std::string& picture, const std::string& more = "") {
-  const Scratch scratch;
-  scratch.write("m.png", picture);
+  folder().write("m.png", picture);
   const std::string text = "image: m.png\nresolution: 0.1\norigin: [0, 0, 0]\n" + more;
-  return load_raster_map(scratch.write("m.yaml", text)).raster;
+  return load_raster(folder().write("m.yaml", text));
 }
 
 constexpr int kGrey = 0, kColour = 2, kPalette = 3, kGreyAlpha = 4, kColourAlpha = 6;
 
 std::vector<std::uint16_t> greys(const std::string& file) {
-  ImageFile image(file);
+  const std::unique_ptr<ImageFile> image = open_image(file);
   std::vector<std::uint16_t> all;
   std::vector<Pixel> row;
-  for (std::int32_t k = 0; k < image.height(); ++k) {
-    image.next_row(row);
+  for (std::int32_t k = 0; k < image->height; ++k) {
+    image->next_row(row);
     for (const Pixel& pixel : row) all.push_back(pixel.colour);
   }
   return all;
 }
-
-}  // namespace
-
-namespace {
 
 std::string low_first(std::uint32_t v, int bytes) {
   std::string text;
@@ -77,8 +72,7 @@ std::string bmp(std::uint32_t width, int bits, const std::string& palette, const
 }  // namespace
 
 TEST_CASE("a BMP is read as map_saver writes it, with a palette or in colour, from the bottom or from the top") {
-  const Scratch scratch;
-  const auto greys_of = [&](const std::string& bytes) { return greys(scratch.write("m.bmp", bytes)); };
+  const auto greys_of = [&](const std::string& bytes) { return greys(folder().write("m.bmp", bytes)); };
   const std::string palette{'\0', '\0', '\0', '\0', '\x33', '\x33', '\x33', '\0'};
   const std::vector<std::uint16_t> walls{0, 0x3333, 0x3333, 0x3333};
   CHECK(greys_of(bmp(2, 8, palette, std::string("\1\1\0\0\0\1\0\0", 8), false)) == walls);
@@ -133,35 +127,32 @@ TEST_CASE("the modes are read in any case, and raw takes brightness for per cent
 }
 
 TEST_CASE("binary, 16 bit and commented PGM give the same picture as plain text") {
-  const Scratch scratch;
   const std::vector<std::uint16_t> expected{0, 65535, 128 * 257, 7 * 257};
-  CHECK(greys(scratch.write("a.pgm", "P2\n# made by hand\n2 2 # wide, high\n255\n0 255 128 7\n")) == expected);
-  CHECK(greys(scratch.write("b.pgm", std::string("P5 2 2 255\n\x00\xff\x80\x07", 15))) == expected);
+  CHECK(greys(folder().write("a.pgm", "P2\n# made by hand\n2 2 # wide, high\n255\n0 255 128 7\n")) == expected);
+  CHECK(greys(folder().write("b.pgm", std::string("P5 2 2 255\n\x00\xff\x80\x07", 15))) == expected);
   // 128 of 255 is 32896 = 0x8080 of 65535, and 7 is 1799 = 0x0707.
-  CHECK(greys(scratch.write("c.pgm", std::string("P5 2 2 65535\n\x00\x00\xff\xff\x80\x80\x07\x07", 21))) == expected);
+  CHECK(greys(folder().write("c.pgm", std::string("P5 2 2 65535\n\x00\x00\xff\xff\x80\x80\x07\x07", 21))) == expected);
 }
 
 TEST_CASE("a map of more cells than are wanted is read in larger ones: a wall where a pixel is, free where all are") {
-  const Scratch scratch;
   // Seven by three pixels, one wall at the top right corner and one unknown pixel at the bottom left.
-  scratch.write("m.pgm",
-                "P2 7 3 255  255 255 255 255 255 255 0  255 255 255 255 255 255 255  205 255 255 255 255 255 255");
-  const auto yaml = scratch.write("m.yaml", "image: m.pgm\nresolution: 0.1\norigin: [1, 2, 0]\n");
-  const Raster raster = load_raster_map(yaml, 4).raster;
+  folder().write("m.pgm",
+                 "P2 7 3 255  255 255 255 255 255 255 0  255 255 255 255 255 255 255  205 255 255 255 255 255 255");
+  const auto yaml = folder().write("m.yaml", "image: m.pgm\nresolution: 0.1\norigin: [1, 2, 0]\n");
+  const Raster raster = load_raster(yaml, 4);
   CHECK(raster.width == 4);
   CHECK(raster.height == 2);
   CHECK(raster.cell_m == Approx(0.2));
   CHECK(raster.map_from_raster == Pose2{1, 2, 0});
   CHECK(raster.solid == Cells{0, 0, 0, 0, 0, 0, 0, 1});
   CHECK(raster.free == Cells{0, 1, 1, 1, 1, 1, 1, 0});
-  CHECK(load_raster_map(yaml).raster.width == 7);
+  CHECK(load_raster(yaml).width == 7);
 }
 
 TEST_CASE("a damaged PNG is refused in words, wherever it was cut") {
-  const Scratch scratch;
   const std::string whole = png(4, 8, kGrey, "abcd");
   for (std::size_t bytes = 2; bytes + 20 < whole.size(); ++bytes) {
-    const std::string file = scratch.write("cut.png", whole.substr(0, bytes));
-    CHECK(says(refusal([&] { static_cast<void>(greys(file)); }), "cut.png: "));
+    const std::string file = folder().write("cut.png", whole.substr(0, bytes));
+    CHECK(holds(refusal_of([&] { return greys(file); }), "cut.png: "));
   }
 }

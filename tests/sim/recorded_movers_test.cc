@@ -14,13 +14,12 @@ const RobotBody kFarAway{p3dx().footprint, {100.0, 100.0, 0.0}};
 
 RecordedMovers recorded(const RecordedSpec& spec) { return RecordedMovers({&spec, 1}, 4); }
 
-RecordedSpec two(const Scratch& scratch) { return {.file = scratch.write("two.csv", kTwo), .radius_m = 0.25}; }
+RecordedSpec two() { return {.file = folder().write("two.csv", kTwo), .radius_m = 0.25}; }
 
 }  // namespace
 
 TEST_CASE("people walk straight between their places and come and go") {
-  const Scratch scratch;
-  RecordedMovers people = recorded(two(scratch));
+  RecordedMovers people = recorded(two());
   CHECK(people.capacity() == 2);
   people.place(0.5, kFarAway);
   REQUIRE(people.movers().size() == 1);
@@ -41,8 +40,7 @@ TEST_CASE("people walk straight between their places and come and go") {
 }
 
 TEST_CASE("offset moves them, start_at_s makes them late") {
-  const Scratch scratch;
-  RecordedSpec spec = two(scratch);
+  RecordedSpec spec = two();
   spec.offset = {10.0, 20.0};
   spec.start_at_s = 3.0;
   RecordedMovers people = recorded(spec);
@@ -54,8 +52,7 @@ TEST_CASE("offset moves them, start_at_s makes them late") {
 }
 
 TEST_CASE("a looped recording begins anew after its 4 s") {
-  const Scratch scratch;
-  RecordedSpec spec = two(scratch);
+  RecordedSpec spec = two();
   spec.loop = true;
   RecordedMovers people = recorded(spec);
   people.place(3.5, kFarAway);
@@ -65,8 +62,7 @@ TEST_CASE("a looped recording begins anew after its 4 s") {
 }
 
 TEST_CASE("a person is forced once when the robot comes within 0.4 m ahead, not beside") {
-  const Scratch scratch;
-  RecordedMovers people = recorded(two(scratch));  // walks along x, its edge 0.25 m ahead of its middle
+  RecordedMovers people = recorded(two());  // walks along x, its edge 0.25 m ahead of its middle
   const auto robot_at = [](double x, double y) { return RobotBody{p3dx().footprint, {x, y, 0.0}}; };
   people.place(0.1, robot_at(0.1 + 0.25 + 0.41 + 0.301, 0.0));
   CHECK(people.forced() == 0);
@@ -95,11 +91,10 @@ TEST_CASE("bad recordings of movers are refused with file, line and cause") {
                        {kHead + "0,1,2,nan\n", "walk.csv:2: "},
                        {kHead + "0,1.5,2,3\n", "walk.csv:2: "},
                        {kHead + "0,1,2,1e99\n", "walk.csv:2: "}};
-  const Scratch scratch;
   for (const Bad& bad : cases) {
-    const RecordedSpec spec{.file = scratch.write("walk.csv", bad.text), .radius_m = 0.25};
-    const std::string message = refusal([&] { static_cast<void>(recorded(spec)); });
+    const RecordedSpec spec{.file = folder().write("walk.csv", bad.text), .radius_m = 0.25};
+    const std::string message = refusal_of([&] { return recorded(spec); });
     INFO(bad.text << "\n-> " << message);
-    CHECK(says(message, bad.place));
+    CHECK(holds(message, bad.place));
   }
 }

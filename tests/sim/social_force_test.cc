@@ -7,9 +7,7 @@ using namespace jaywalk::sim::social;
 // Worked by hand from Helbing and Molnar 1995, V0 = 2.1 m2/s2, sigma = 0.3 m, U0 = 10 m2/s2, R = 0.2 m, tau = 0.5 s.
 
 TEST_CASE("a pedestrian at rest pushes another 0.5 m away by 7 exp(-5/3) = 1.3221 m/s2") {
-  const Vec2 force = away_from_walker({0.3, 0.4}, {});
-  CHECK(force.x == Approx(0.6 * 1.322129).epsilon(1e-6));
-  CHECK(force.y == Approx(0.8 * 1.322129).epsilon(1e-6));
+  CHECK(distance(away_from_walker({0.3, 0.4}, {}), Vec2{0.6, 0.8} * 1.322129) < 1e-6);
 }
 
 TEST_CASE("beside the middle of a pedestrian's next 2 s the force is straight sideways, 7 exp(-2) at 0.6 m") {

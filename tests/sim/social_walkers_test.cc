@@ -16,8 +16,8 @@ namespace {
 
 constexpr double kTick = 0.02;
 
-Scenario room_with(const Scratch& scratch, const SocialSpec& spec) {
-  Scenario scenario = in_room(scratch);
+Scenario room_with(const SocialSpec& spec) {
+  Scenario scenario = in_room();
   scenario.model.laser.beams = 2;  // nobody looks
   scenario.social.push_back(spec);
   return scenario;
@@ -34,8 +34,8 @@ void wait(World& world, double seconds, const std::function<void(const Truth&)>&
 /// One walker in a room of 10 m, and a robot that can be put anywhere.
 class OneWalker {
  public:
-  OneWalker(const Scratch& scratch, Reaction reaction)
-      : scenario_(room_with(scratch, {.count = 1, .reaction = reaction})),
+  OneWalker(Reaction reaction)
+      : scenario_(room_with({.count = 1, .reaction = reaction})),
         walls_(load_aria_map(scenario_.map_file)),
         grid_(walls_, 0.19, scenario_.start.position(), scenario_.goal),
         walkers_({scenario_, walls_, grid_}, 3, 0, {}) {
@@ -63,8 +63,8 @@ struct Kept {
   double least_m = 100.0, last_m = 0.0, slowest_mps = 100.0;
 };
 
-Kept kept_from(const Scratch& scratch, Reaction reaction, double bearing = 0.0) {
-  OneWalker one(scratch, reaction);
+Kept kept_from(Reaction reaction, double bearing = 0.0) {
+  OneWalker one(reaction);
   const Pose2 robot = one.ahead(2.5, bearing);
   Kept kept;
   for (int k = 0; k < 500; ++k) {
@@ -79,8 +79,7 @@ Kept kept_from(const Scratch& scratch, Reaction reaction, double bearing = 0.0) 
 }  // namespace
 
 TEST_CASE("social movers stay in the room, walk at the speeds that they wish, and are the same again") {
-  const Scratch scratch;
-  const Scenario scenario = room_with(scratch, {.count = 8, .reaction = Reaction::kMixed});
+  const Scenario scenario = room_with({.count = 8, .reaction = Reaction::kMixed});
   World world(scenario, 4), again(scenario, 4);
   double way_m = 0.0;
   wait(world, 60.0, [&](const Truth& truth) {
@@ -98,8 +97,7 @@ TEST_CASE("social movers stay in the room, walk at the speeds that they wish, an
 }
 
 TEST_CASE("a regular walker goes round a standing robot and is slowed and turned by it") {
-  const Scratch scratch;
-  OneWalker one(scratch, Reaction::kRegular);
+  OneWalker one(Reaction::kRegular);
   const double before_m = one.caused().slowed_m;
   const Pose2 robot = one.ahead(1.5);
   for (int k = 0; k < 100; ++k) {
@@ -111,9 +109,8 @@ TEST_CASE("a regular walker goes round a standing robot and is slowed and turned
 }
 
 TEST_CASE("a surprised walker stands and looks at a robot within 4 m that it sees, and not at one behind it") {
-  const Scratch scratch;
-  CHECK(kept_from(scratch, Reaction::kSurprised).slowest_mps < 0.05);
-  OneWalker one(scratch, Reaction::kSurprised);
+  CHECK(kept_from(Reaction::kSurprised).slowest_mps < 0.05);
+  OneWalker one(Reaction::kSurprised);
   const Pose2 behind = one.ahead(2.0, kPi);
   for (int k = 0; k < 50; ++k) one.step(behind);
   CHECK(one.speed() > 0.5);
@@ -126,16 +123,14 @@ TEST_CASE("a surprised walker stands and looks at a robot within 4 m that it see
 }
 
 TEST_CASE("a curious walker comes to 1.5 m, an afraid one stays away, a hurried one passes close") {
-  const Scratch scratch;
-  const Kept curious = kept_from(scratch, Reaction::kCurious), afraid = kept_from(scratch, Reaction::kAfraid);
+  const Kept curious = kept_from(Reaction::kCurious), afraid = kept_from(Reaction::kAfraid);
   CHECK(curious.last_m == Approx(1.5).margin(0.1));
-  CHECK(afraid.least_m > kept_from(scratch, Reaction::kRegular).least_m + 0.3);
-  CHECK(kept_from(scratch, Reaction::kHurried).least_m < afraid.least_m);
+  CHECK(afraid.least_m > kept_from(Reaction::kRegular).least_m + 0.3);
+  CHECK(kept_from(Reaction::kHurried).least_m < afraid.least_m);
 }
 
 TEST_CASE("three that walk together stay together") {
-  const Scratch scratch;
-  World world(room_with(scratch, {.count = 3, .group = 3}), 5);
+  World world(room_with({.count = 3, .group = 3}), 5);
   double apart_m = 0.0;
   int ticks = 0;
   wait(world, 60.0,
@@ -146,14 +141,13 @@ TEST_CASE("three that walk together stay together") {
 TEST_CASE("times in intimate and personal space are those of the nearest mover's middle to the outline") {
   // A P3-DX's front is 0.227 m ahead of its axle (hal/types/robot_model.cc). A recorded walker stands 0.4 m before it
   // for 2 s, and then 1.0 m before it for 3 s.
-  const Scratch scratch;
-  Scenario scenario = in_room(scratch);
+  Scenario scenario = in_room();
   const double front_m = 5.0 + scenario.model.footprint.front_m;
   const auto row = [&](double t_s, double way_m) {
     return std::to_string(t_s) + ",1," + std::to_string(front_m + way_m) + ",5.0\n";
   };
   const std::string rows = "t_s,id,x_m,y_m\n" + row(0.0, 0.4) + row(2.0, 0.4) + row(2.001, 1.0) + row(5.0, 1.0);
-  scenario.recorded.push_back({.file = scratch.write("walker.csv", rows)});
+  scenario.recorded.push_back({.file = folder().write("walker.csv", rows)});
   World world(scenario, 1);
   wait(world, 8.0, [](const Truth&) {});
   CHECK(world.truth().social.intimate_s == Approx(2.0).margin(0.021));

@@ -45,8 +45,7 @@ TEST_CASE("a stick that is pointed at the goal turns first, goes ahead, and is l
 }
 
 TEST_CASE("a table's rows hold until the next, and a hand comes late by its delay") {
-  Scratch scratch;
-  const auto file = scratch.write("stick.csv", "t_s,forward,left\n1,0.5,0\n2,0,-1\n3,0,0\n");
+  const auto file = folder().write("stick.csv", "t_s,forward,left\n1,0.5,0\n2,0,-1\n3,0,0\n");
   ScriptedStick stick({.kind = StickKind::kTable, .delay_s = 0.2, .file = file}, with_goal({}), 1);
   for (double t = 0.0; t < 4.0; t += 0.02) {
     const Stick now = stick.at(at(t));
@@ -58,22 +57,20 @@ TEST_CASE("a table's rows hold until the next, and a hand comes late by its dela
 }
 
 TEST_CASE("a table that is none is refused with its line") {
-  Scratch scratch;
   const auto refused = [&](const char* text) {
-    const auto file = scratch.write("stick.csv", text);
-    return refusal([&] { ScriptedStick({.kind = StickKind::kTable, .file = file}, with_goal({}), 1); });
+    const auto file = folder().write("stick.csv", text);
+    return refusal_of([&] { ScriptedStick({.kind = StickKind::kTable, .file = file}, with_goal({}), 1); });
   };
-  CHECK(says(refused("t,f,l\n"), "stick.csv:1: does not begin with t_s,forward,left"));
-  CHECK(says(refused("t_s,forward,left\n0,1,0\n0,1,0\n"), "stick.csv:3: "));
-  CHECK(says(refused("t_s,forward,left\n0,1.5,0\n"), "stick.csv:2: "));
-  CHECK(says(refused("t_s,forward,left\n0,1\n"), "stick.csv:2: "));
-  CHECK(says(refused("t_s,forward,left\n"), "holds no row"));
+  CHECK(holds(refused("t,f,l\n"), "stick.csv:1: does not begin with t_s,forward,left"));
+  CHECK(holds(refused("t_s,forward,left\n0,1,0\n0,1,0\n"), "stick.csv:3: "));
+  CHECK(holds(refused("t_s,forward,left\n0,1.5,0\n"), "stick.csv:2: "));
+  CHECK(holds(refused("t_s,forward,left\n0,1\n"), "stick.csv:2: "));
+  CHECK(holds(refused("t_s,forward,left\n"), "holds no row"));
 }
 
 TEST_CASE("a hand trembles as much as it is said to, the same with the same seed, and not while it rests") {
-  ScriptedStick one({.kind = StickKind::kStraight, .forward = 0.5, .noise_std = 0.1, .delay_s = 0.0}, with_goal({}), 3);
-  ScriptedStick same({.kind = StickKind::kStraight, .forward = 0.5, .noise_std = 0.1, .delay_s = 0.0}, with_goal({}),
-                     3);
+  const StickSpec trembling{.kind = StickKind::kStraight, .forward = 0.5, .noise_std = 0.1, .delay_s = 0.0};
+  ScriptedStick one(trembling, with_goal({}), 3), same(trembling, with_goal({}), 3);
   double sum2 = 0.0;
   constexpr int kTicks = 50000;
   for (int k = 0; k < kTicks; ++k) {

@@ -11,20 +11,9 @@ using namespace jaywalk::sim;
 
 namespace {
 
-const std::string kHead = "[map]\naria = \"room.map\"\n[robot]\nstart = [5, 5, 0]\ngoal = [8, 8]\nmodel = \"p3dx\"\n";
+const std::string kHead = kMap + kRobot + "model = \"p3dx\"\n";
 const std::string kFront = "[[robot.laser]]\nmount = [0.2, 0.0, 0.0]\nrate_hz = 10\n";
 const std::string kRear = "[[robot.laser]]\nmount = [-0.2, 0.0, 3.1]\nrate_hz = 25\nfov_deg = 180\n";
-
-Scratch& folder() {
-  static Scratch scratch;
-  scratch.write("room.map", kRoom);
-  return scratch;
-}
-
-Scenario parsed(const std::string& text) { return load_scenario(folder().write("s.toml", kHead + text)); }
-std::string refused(const std::string& text) {
-  return refusal([&] { static_cast<void>(parsed(text)); });
-}
 
 /// The stamps of each scanner's scans in two seconds.
 std::vector<std::set<Time>> stamps(const Scenario& scenario) {
@@ -45,9 +34,9 @@ std::vector<std::set<Time>> stamps(const Scenario& scenario) {
 }  // namespace
 
 TEST_CASE("one table is one scanner, however it is written, and each more is like the first but for what it says") {
-  CHECK(parsed("[robot.laser]\nrate_hz = 10\n").model.lasers().size() == 1);
-  CHECK(parsed(kFront).model.laser.rate_hz == 10.0);
-  const RobotModel two = parsed(kFront + "drop_out = 0.5\nturns = true\n" + kRear).model;
+  CHECK(parsed(kHead + "[robot.laser]\nrate_hz = 10\n").model.lasers().size() == 1);
+  CHECK(parsed(kHead + kFront).model.laser.rate_hz == 10.0);
+  const RobotModel two = parsed(kHead + kFront + "drop_out = 0.5\nturns = true\n" + kRear).model;
   REQUIRE(two.lasers().size() == 2);
   CHECK(two.lasers()[1].robot_from_laser == Pose2{-0.2, 0.0, 3.1});
   CHECK(two.lasers()[1].rate_hz == 25.0);
@@ -56,29 +45,20 @@ TEST_CASE("one table is one scanner, however it is written, and each more is lik
 }
 
 TEST_CASE("a scanner too many, without a mount, or left out is refused with its line") {
-  CHECK(says(refused(kFront + "[[robot.laser]]\nrate_hz = 5\n"), "s.toml:10: robot.laser.mount is missing"));
-  CHECK(says(refused(kFront + kRear + kRear + kRear + kRear), "one scanner's more than 4"));
-  CHECK(says(refused(kFront + "[[faults]]\nkind = \"scan_stale\"\nscanner = 2\nat_s = 1\nfor_s = 1\n"),
-             "is none of this robot's"));
-  RobotModel two = parsed(kFront + kRear).model;
+  CHECK(holds(refused(kHead + kFront + "[[robot.laser]]\nrate_hz = 5\n"), "s.toml:10: robot.laser.mount is missing"));
+  CHECK(holds(refused(kHead + kFront + kRear + kRear + kRear + kRear), "one scanner's more than 4"));
+  CHECK(holds(refused(kHead + kFront + "[[faults]]\nkind = \"scan_stale\"\nscanner = 2\nat_s = 1\nfor_s = 1\n"),
+              "is none of this robot's"));
+  RobotModel two = parsed(kHead + kFront + kRear).model;
   REQUIRE(two.other_lasers.size() == 1);
-  const std::string body =
-      "[footprint]\nfront_m = 0.3\nrear_m = 0.3\nhalf_width_m = 0.2\n[drive]\nwheel_radius_m = 0.1\ntrack_width_m = "
-      "0.3\nmax_wheel_speed_radps = 10\n[limits]\nmax_speed_mps = 0.5\nmax_turn_radps = 1\nmax_accel_mps2 = 0.5\n"
-      "max_turn_accel_radps2 = 2\nmax_jerk_mps3 = 2\nbrake_mps2 = 1\n";
-  const std::string laser =
-      "[[laser]]\nmount = [0, 0, 0]\nfov_deg = 180\nbeams = 181\nrate_hz = 10\nrange_min_m = 0.1\n"
-      "range_m = 8\n";
-  folder().write("two.toml", body + laser + laser);
-  CHECK(load_robot_model(folder().path("two.toml")).lasers().size() == 2);
-  const std::string with_two =
-      "[map]\naria = \"room.map\"\n[robot]\nstart = [5, 5, 0]\ngoal = [8, 8]\nmodel = \"two.toml\"\n";
-  CHECK(says(refusal([&] { static_cast<void>(load_scenario(folder().write("s.toml", with_two + kFront))); }),
-             "the model has 2 scanners"));
+  const std::string laser = "[[laser]]\n" + kScanner;
+  const std::string file = folder().write("two.toml", kBody + laser + laser);
+  CHECK(load_robot_model(file).lasers().size() == 2);
+  CHECK(holds(refused(kMap + kRobot + "model = \"two.toml\"\n" + kFront), "the model has 2 scanners"));
 }
 
 TEST_CASE("each scanner sees from its own mount, at its own rate and by a clock of its own") {
-  Scenario scenario = parsed(kFront + kRear);
+  Scenario scenario = parsed(kHead + kFront + kRear);
   scenario.model.laser.noise_m = scenario.model.other_lasers[0].noise_m = 0.0;
   const std::vector<std::set<Time>> seen = stamps(scenario);
   CHECK(seen[0].size() == 21);  // 10 a second, from 0 on
@@ -94,7 +74,7 @@ TEST_CASE("each scanner sees from its own mount, at its own rate and by a clock 
 }
 
 TEST_CASE("the noise of each is its own, and a fault is that scanner's alone") {
-  Scenario scenario = parsed(kFront + kRear);
+  Scenario scenario = parsed(kHead + kFront + kRear);
   scenario.model.other_lasers[0] = scenario.model.laser;
   scenario.faults = {{.at_s = 1.0, .for_s = 10.0, .kind = FaultKind::kScanStale, .scanner = 2}};
   const std::vector<std::set<Time>> seen = stamps(scenario);
@@ -107,7 +87,7 @@ TEST_CASE("the noise of each is its own, and a fault is that scanner's alone") {
 }
 
 TEST_CASE("with a second scanner the first sees what it sees alone") {
-  Scenario one = parsed(kFront), two = parsed(kFront + kRear);
+  Scenario one = parsed(kHead + kFront), two = parsed(kHead + kFront + kRear);
   for (Scenario* scenario : {&one, &two}) scenario->wanderers = {{.count = 4}};
   Simulation alone(one, 3), beside(two, 3);
   Hal a = alone.hal(), b = beside.hal();

@@ -14,45 +14,28 @@ namespace {
 
 constexpr double kRoot2 = 1.4142135623730951;
 
-Walls room() {
-  const Scratch scratch;
-  return Walls(load_aria_map(scratch.write("room.map", kRoom)));
-}
-
 /// 8 x 4 cells of half a metre; one solid cell, column 6 of the row second from below.
 Walls one_cell(const std::string& origin) {
-  const Scratch scratch;
-  scratch.write("cell.pgm",
-                "P2 8 4 255 "
-                "255 255 255 255 255 255 255 255 "
-                "255 255 255 255 255 255 255 255 "
-                "255 255 255 255 255 255   0 255 "
-                "255 255 255 255 255 255 255 255");
-  return Walls(load_raster_map(
-      scratch.write("cell.yaml", "image: cell.pgm\nresolution: 0.5\norigin: " + origin + "\nnegate: 0\n")));
+  folder().write("cell.pgm",
+                 "P2 8 4 255 "
+                 "255 255 255 255 255 255 255 255 "
+                 "255 255 255 255 255 255 255 255 "
+                 "255 255 255 255 255 255   0 255 "
+                 "255 255 255 255 255 255 255 255");
+  return Walls(load_wall_map(MapKind::kYaml, folder().write("cell.yaml", "image: cell.pgm\nresolution: 0.5\norigin: " +
+                                                                             origin + "\nnegate: 0\n")));
 }
 
 }  // namespace
 
-TEST_CASE("rays end at the room's walls: 7 m ahead, 6 root 2 m along the diagonal") {
+TEST_CASE("rays end at the room's walls, 7 m ahead, 6 root 2 m along the diagonal, or meet nothing in their range") {
   const Walls walls = room();
   CHECK(walls.cast({3, 4}, {1, 0}, 25.0) == Approx(7.0));
   CHECK(walls.cast({3, 4}, {-1, 0}, 25.0) == Approx(3.0));
   CHECK(walls.cast({3, 4}, {0, -1}, 25.0) == Approx(4.0));
   CHECK(walls.cast({3, 4}, {kRoot2 / 2, kRoot2 / 2}, 25.0) == Approx(6 * kRoot2));  // at (9, 10)
-}
-
-TEST_CASE("a ray that ends before the wall meets nothing") {
-  const Walls walls = room();
   CHECK(walls.cast({3, 4}, {1, 0}, 6.9) == kInfinity);
   CHECK(walls.cast({3, 4}, {1, 0}, 7.1) == Approx(7.0));
-}
-
-TEST_CASE("from outside a ray meets the near side, or nothing when it goes away") {
-  const Walls walls = room();
-  CHECK(walls.cast({-5, 4}, {1, 0}, 25.0) == Approx(5.0));
-  CHECK(walls.cast({-5, 4}, {-1, 0}, 25.0) == kInfinity);
-  CHECK(walls.cast({-5, 20}, {1, 0}, 25.0) == kInfinity);
 }
 
 TEST_CASE("a solid cell stops rays at its four sides") {
@@ -73,8 +56,7 @@ TEST_CASE("a map turned by a quarter has its cell on the left") {
 }
 
 TEST_CASE("a pillar of 1 m radius 5 m ahead: 4.0 m through its middle, 4.2 m when 0.6 m aside") {
-  const Scratch scratch;
-  const Walls walls(load_cylinder_map(scratch.write("pillar.txt", "# x y radius\n5 0 1\n")));
+  const Walls walls(load_cylinder_map(folder().write("pillar.txt", "# x y radius\n5 0 1\n")));
   CHECK(walls.cast({0, 0}, {1, 0}, 25.0) == Approx(4.0));
   CHECK(walls.cast({0, 0.6}, {1, 0}, 25.0) == Approx(4.2));  // sqrt(1 - 0.36) = 0.8
   CHECK(walls.cast({0, 1.1}, {1, 0}, 25.0) == kInfinity);
@@ -82,7 +64,7 @@ TEST_CASE("a pillar of 1 m radius 5 m ahead: 4.0 m through its middle, 4.2 m whe
 }
 
 TEST_CASE("buckets lose no wall: 5000 rays agree with trying every segment") {
-  const Walls walls(load_raster_map(JAYWALK_OWN_MAPS "/map1.yaml"));
+  const Walls walls(load_wall_map(MapKind::kYaml, JAYWALK_OWN_MAPS "/map1.yaml"));
   Random random(1, Purpose::kPlacement);
   for (int k = 0; k < 5000; ++k) {
     const Vec2 from{random.uniform(-1.0, 27.0), random.uniform(-1.0, 27.0)};
@@ -117,7 +99,7 @@ TEST_CASE("clearance finds what is far away, and nothing where there is nothing"
 }
 
 TEST_CASE("clearance of a long robot agrees with trying every wall by itself") {
-  const Walls walls(load_raster_map(JAYWALK_OWN_MAPS "/map1.yaml"));
+  const Walls walls(load_wall_map(MapKind::kYaml, JAYWALK_OWN_MAPS "/map1.yaml"));
   const Footprint longish{.front_m = 2.0, .rear_m = 1.0, .half_width_m = 0.2};
   std::vector<Walls> each;
   for (const WallSegment& s : walls.segments()) each.emplace_back(WallMap{{s}, {}, {}});
@@ -141,10 +123,7 @@ TEST_CASE("a wall's end between two corners of the robot is near its side") {
 TEST_CASE("the shortest path round a wall's end hugs it at the robot's radius") {
   // From (2, 2) over the end at (5, 8) to (8, 2): two tangents of sqrt(45 - r r) and r (2 atan 2 + 2 asin(r / sqrt 45))
   // on the circle: for r = 0.19 13.411 + 0.431 = 13.842.
-  const Scratch scratch;
-  std::string text = kRoom;
-  text.insert(text.find("DATA"), "5000 0 5000 8000\n");
-  const Walls walls(load_aria_map(scratch.write("wall.map", text)));
+  const Walls walls = room("5000 0 5000 8000\n");
   CHECK(FreeGrid(walls, 0.19, {2, 2}, {8, 2}).shortest_path_m() == Approx(13.842).epsilon(0.01));
 }
 
@@ -154,10 +133,7 @@ TEST_CASE("in the open the shortest path is the straight line") {
 }
 
 TEST_CASE("where the robot does not fit there is no path") {
-  const Scratch scratch;
-  std::string text = kRoom;
-  text.insert(text.find("DATA"), "5000 0 5000 9650\n");  // a gap of 0.35 m
-  const Walls walls(load_aria_map(scratch.write("gap.map", text)));
+  const Walls walls = room("5000 0 5000 9650\n");  // a gap of 0.35 m
   const FreeGrid grid(walls, 0.19, {2, 2}, {8, 2});
   CHECK(grid.shortest_path_m() == kInfinity);
   CHECK(grid.reachable({2, 8}));

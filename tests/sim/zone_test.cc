@@ -10,33 +10,33 @@ const Zone kZone{{1.0, 2.0}, {1.0, 0.0}, 1.0};  // apex (1, 2), looks along x, 1
 
 }  // namespace
 
-TEST_CASE("a wall across the way is in the zone up to its reach and not beyond") {
-  CHECK(kZone.meets(WallSegment{{1.99, 0.0}, {1.99, 4.0}}));
-  CHECK_FALSE(kZone.meets(WallSegment{{2.01, 0.0}, {2.01, 4.0}}));
+TEST_CASE("a wall is in the zone ahead up to its reach, and alongside nearer than the reach over root 2") {
+  struct Row {
+    const char* name;
+    WallSegment wall;
+    bool is_in;
+  };
+  const Row rows[] = {{"across the way, within reach", {{1.99, 0.0}, {1.99, 4.0}}, true},
+                      {"across the way, beyond it", {{2.01, 0.0}, {2.01, 4.0}}, false},
+                      {"alongside: 0.707 m is the zone's half width", {{0.0, 2.70}, {5.0, 2.70}}, true},
+                      {"alongside, farther off", {{0.0, 2.72}, {5.0, 2.72}}, false},
+                      {"ends before the zone begins, which is at 1.1", {{0.0, 2.1}, {1.05, 2.1}}, false},
+                      {"ends behind where it begins", {{0.0, 2.1}, {1.15, 2.1}}, true},
+                      {"behind", {{0.9, 0.0}, {0.9, 4.0}}, false},
+                      {"small and inside", {{1.5, 2.0}, {1.5, 2.01}}, true},
+                      {"all across it", {{1.5, -50.0}, {1.5, 50.0}}, true}};
+  for (const Row& row : rows) {
+    CAPTURE(row.name);
+    CHECK(kZone.meets(row.wall) == row.is_in);
+  }
 }
 
-TEST_CASE("a wall alongside is in the zone when nearer than the reach over root 2") {
-  CHECK(kZone.meets(WallSegment{{0.0, 2.70}, {5.0, 2.70}}));  // 0.707 m is the zone's half width
-  CHECK_FALSE(kZone.meets(WallSegment{{0.0, 2.72}, {5.0, 2.72}}));
-  CHECK_FALSE(kZone.meets(WallSegment{{0.0, 2.1}, {1.05, 2.1}}));  // ends where the zone has not begun: it is at 1.1
-  CHECK(kZone.meets(WallSegment{{0.0, 2.1}, {1.15, 2.1}}));
-}
-
-TEST_CASE("what lies behind is not in the zone") {
-  CHECK_FALSE(kZone.meets(WallSegment{{0.9, 0.0}, {0.9, 4.0}}));
-  CHECK_FALSE(kZone.meets(Disc{{0.5, 2.0}, 0.4}));
-}
-
-TEST_CASE("a small wall inside the zone, and one all across it, both count") {
-  CHECK(kZone.meets(WallSegment{{1.5, 2.0}, {1.5, 2.01}}));
-  CHECK(kZone.meets(WallSegment{{1.5, -50.0}, {1.5, 50.0}}));
-}
-
-TEST_CASE("a disc counts from its edge: ahead, and at the zone's border") {
+TEST_CASE("a disc counts from its edge: ahead, and at the zone's border, not behind") {
   CHECK(kZone.meets(Disc{{2.2, 2.0}, 0.21}));
   CHECK_FALSE(kZone.meets(Disc{{2.2, 2.0}, 0.19}));
   CHECK(kZone.meets(Disc{{1.0, 2.5}, 0.36}));  // 0.5 / root 2 = 0.354 from the border
   CHECK_FALSE(kZone.meets(Disc{{1.0, 2.5}, 0.35}));
+  CHECK_FALSE(kZone.meets(Disc{{0.5, 2.0}, 0.4}));
 }
 
 TEST_CASE("the robot counts from its footprint, turned as it stands") {

@@ -17,6 +17,15 @@ std::atomic<void*> seen = nullptr;
 struct alignas(64) CacheLine {
   double values[8];
 };
+
+template <class Act>
+std::uint64_t calls_of(const Act& act) {
+  const AllocationGuard guard;
+  act();
+  return guard.calls();
+}
+
+void make_and_drop() { seen = std::make_unique<int>(1).get(); }
 }  // namespace
 
 TEST_CASE("arithmetic on the stack asks nothing of the heap") {
@@ -28,35 +37,12 @@ TEST_CASE("arithmetic on the stack asks nothing of the heap") {
   CHECK(sum == Approx(7.485470860550345));  // the thousandth harmonic number
 }
 
-TEST_CASE("a new and its delete are two calls") {
-  const AllocationGuard guard;
-  int* const number = new int(1);
-  seen = number;
-  delete number;
-  const auto calls = guard.calls();
-  CHECK(calls == 2);
-}
-
-TEST_CASE("over-aligned new is counted") {
-  const AllocationGuard guard;
-  auto line = std::make_unique<CacheLine>();
-  seen = line.get();
-  line.reset();
-  const auto calls = guard.calls();
-  CHECK(calls == 2);
-}
-
-TEST_CASE("malloc, calloc and free are counted and freeing nothing is not") {
-  const AllocationGuard guard;
-  void* const first = std::malloc(16);
-  seen = first;
-  void* const second = std::calloc(4, 4);
-  seen = second;
-  std::free(first);
-  std::free(second);
-  std::free(nullptr);
-  const auto calls = guard.calls();
-  CHECK(calls == 4);
+TEST_CASE("new, over-aligned new, malloc and calloc are counted, and giving back too, but not of nothing") {
+  CHECK(calls_of(make_and_drop) == 2);
+  CHECK(calls_of([] { seen = std::make_unique<CacheLine>().get(); }) == 2);
+  CHECK(calls_of([] { std::free(seen = std::malloc(16)); }) == 2);
+  CHECK(calls_of([] { std::free(seen = std::calloc(4, 4)); }) == 2);
+  CHECK(calls_of([] { std::free(nullptr); }) == 0);
 }
 
 TEST_CASE("a vector that grows is caught") {
@@ -75,13 +61,7 @@ TEST_CASE("a vector that grows is caught") {
 TEST_CASE("other threads do not count") {
   seen = nullptr;
   std::uint64_t there = 0;
-  std::thread other([&there] {
-    const AllocationGuard guard;
-    int* const number = new int(1);
-    seen = number;
-    delete number;
-    there = guard.calls();
-  });
+  std::thread other([&there] { there = calls_of(make_and_drop); });
   const AllocationGuard guard;
   while (seen == nullptr) std::this_thread::yield();
   const auto here = guard.calls();

@@ -8,7 +8,7 @@
 #include <thread>
 
 #include "apps/formats/ros_topics.h"
-#include "apps/view/joint_states.h"
+#include "apps/view/foxglove_session.h"
 #include "tests/support/catch.h"
 
 using namespace jaywalk;
@@ -117,7 +117,7 @@ TEST_CASE("/joint_states on DDS has both wheels, their angles and speeds") {
   for (int looks = 0; looks < 30'000 && !came; ++looks) {
     CHECK(topics.publish("/joint_states", view::joint_states(wheels, Time{std::chrono::milliseconds(2250)})));
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
-    dds::take_all<sensor_msgs_msg_dds__JointState_>(reader, [&](const sensor_msgs_msg_dds__JointState_& told) {
+    dds::take_all<sensor_msgs_msg_dds__JointState_>(reader, [&](const auto& told, const auto&) {
       came = true;
       CHECK(told.header_.stamp_.sec_ == 2);
       CHECK(told.header_.stamp_.nanosec_ == 250'000'000);

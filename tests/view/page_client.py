@@ -7,8 +7,14 @@ import signal
 import socket
 import struct
 import subprocess
+import sys
 
 kHang_s = 600  # after which nothing is waited for any more: no verdict on slow machines
+
+
+def check(is_so, claim):
+    if not is_so:
+        sys.exit("FAILED: " + claim)
 
 
 def short_scenario(root, folder, timeout_s, name="short"):
@@ -116,6 +122,13 @@ class Client:
     def frame(self):
         """The next frame of a tick; None at the connection's end."""
         return self.message("frame")
+
+    def frame_where(self, holds):
+        """The next frame that it holds for; all of them are waited for."""
+        frame = self.frame()
+        while not holds(frame):
+            frame = self.frame()
+        return frame
 
     def last_frame(self):
         """The frame that tells the outcome; the run ends once this client is closed."""

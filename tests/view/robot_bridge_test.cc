@@ -105,7 +105,7 @@ struct Bench {
   }
   std::vector<TwistSample> commands() const {
     std::vector<TwistSample> all;
-    dds::take_all<TwistSample>(reader, [&](const TwistSample& twist) { all.push_back(twist); });
+    dds::take_all<TwistSample>(reader, [&](const TwistSample& twist, const auto&) { all.push_back(twist); });
     return all;
   }
 };

@@ -33,20 +33,6 @@ double sideways(const Pose2& step) {
   return std::fabs(cos(0.5 * step.heading) * step.y - sin(0.5 * step.heading) * step.x);
 }
 
-/// The robot's poses as the FLASER lines have them, and how many lie beside the ODOM lines' way.
-struct LaserPoses {
-  std::vector<OdometryPose> poses;
-  std::size_t beside = 0;
-
-  void add(const std::vector<OdometryPose>& odometry, const OdometryPose& pose) {
-    if (!odometry.empty() && sideways(inverse(odometry.back().pose) * pose.pose) > kSidewaysM) ++beside;
-    poses.push_back(pose);
-  }
-  [[nodiscard]] bool were_corrected() const {
-    return poses.size() >= kEnoughScans && beside * kCorrectedOneIn > poses.size();
-  }
-};
-
 /// Where a laser message has what. FLASER's beams are CARMEN's old ones over half a turn, the newer messages say
 /// theirs.
 struct LaserMessage {
@@ -68,14 +54,13 @@ constexpr std::size_t kLaserPose = 0;  // of ROBOTLASER1, likewise: in the frame
 /// What a log says at one place: a scan with the robot's pose, or a pose between scans.
 struct Event {
   OdometryPose pose;
-  std::size_t line = 0;
   bool of_scan = false;
 };
 
 /// The messages of one log. The laser's are those of one kind: logs have the same scans in several.
 class CarmenReader {
  public:
-  CarmenReader(RecordedLog& log, const LaserMessage& laser) : log_(log), laser_(laser), scans_(log) {}
+  CarmenReader(RecordedLog& log, const LaserMessage& laser) : log_(log), laser_(laser) {}
 
   void read(const LineFile& file) {
     if (file.words().front() == laser_.name) read_laser(file);
@@ -83,16 +68,16 @@ class CarmenReader {
   }
   /// Odometry, and what corrections left of it, of the scans that stay.
   void settle(const LogPlace& place) {
-    const std::vector<bool> stays = scans_.settle_times(place);
+    const std::vector<bool> stays = settle_times(log_, place);
     if (log_.scans.empty()) return;
     if (mount_ && mount_is_fixed_ && log_.robot_from_laser == Pose2{}) use_mount(place.file);
     std::size_t scan = 0;
     for (const Event& event : events_)
       if (!event.of_scan)
-        append_between(event, {place.file, event.line});
+        append_between(event, {place.file, event.pose.number});
       else if (stays[scan++] && laser_.pose > 0)
         append_scan(event.pose);
-    if (poses_.were_corrected()) leave_out_odometry(place.file);
+    if (poses_.size() >= kEnoughScans && beside_ * kCorrectedOneIn > poses_.size()) leave_out_odometry(place.file);
   }
 
  private:
@@ -108,9 +93,9 @@ class CarmenReader {
     std::optional<Pose2> pose = Pose2{};
     if (laser_.pose > 0) pose = sound_pose(pose_at(file, tail + laser_.pose));
     if (!pose) return log_.refuse(file.place(), kNoPose);
-    if (!add_scan(scans_, file, scan, first, nothing_from_m)) return;
+    if (!add_scan(log_, file, scan, first, nothing_from_m)) return;
     if (laser_.tells_beams && laser_.pose > 0) see_mount(inverse(*pose) * pose_at(file, tail + kLaserPose));
-    events_.push_back({{scan.stamp, *pose, std::nullopt}, file.line(), true});
+    events_.push_back({{scan.stamp, *pose, std::nullopt, file.line()}, true});
   }
   void see_mount(const Pose2& mount) {
     if (!mount_) mount_ = mount;
@@ -124,26 +109,26 @@ class CarmenReader {
                                      mount_->heading));
   }
   RecordedScan scan_of(const LineFile& file, std::size_t beams, std::size_t tail) const {
+    const BeamAngles fan = carmen_fan(beams, kApertureRad);
     RecordedScan scan;
     scan.stamp = time_from_seconds(file.seconds(tail + laser_.time));
     scan.beams = static_cast<std::uint32_t>(beams);
     scan.range_min_m = kRangeMinM;
-    scan.range_max_m = static_cast<float>(kNothingFromM);
-    const BeamFan fan = carmen_fan(beams, kApertureRad);
-    scan.first_angle_rad = laser_.tells_beams ? static_cast<float>(file.number(2)) : fan.first_angle_rad;
-    scan.angle_step_rad = laser_.tells_beams ? static_cast<float>(file.number(4)) : fan.angle_step_rad;
-    if (laser_.tells_beams) scan.range_max_m = static_cast<float>(file.number(5));
+    scan.first_angle_rad = static_cast<float>(laser_.tells_beams ? file.number(2) : fan.first_rad);
+    scan.angle_step_rad = static_cast<float>(laser_.tells_beams ? file.number(4) : fan.step_rad);
+    scan.range_max_m = static_cast<float>(laser_.tells_beams ? file.number(5) : kNothingFromM);
     return scan;
   }
   void read_odometry(const LineFile& file) {
     if (file.words().size() != kOdomWords) return log_.refuse(file.place(), kWrongLength);
     const std::optional<Pose2> pose = sound_pose(pose_at(file, 1));
     if (!pose) return log_.refuse(file.place(), kNoPose);
-    events_.push_back({{time_from_seconds(file.seconds(kOdomTime)), *pose, std::nullopt}, file.line(), false});
+    events_.push_back({{time_from_seconds(file.seconds(kOdomTime)), *pose, std::nullopt, file.line()}, false});
   }
   void append_scan(const OdometryPose& pose) {
     while (!log_.odometry.empty() && log_.odometry.back().stamp >= pose.stamp) log_.odometry.pop_back();
-    poses_.add(log_.odometry, pose);
+    if (!log_.odometry.empty() && sideways(inverse(log_.odometry.back().pose) * pose.pose) > kSidewaysM) ++beside_;
+    poses_.push_back(pose);
     log_.odometry.push_back(pose);
   }
   void append_between(const Event& event, const LogPlace& place) {
@@ -155,7 +140,7 @@ class CarmenReader {
   }
   /// Uses the scans' own poses as odometry in place of all ODOM lines, and takes back their refusals for wrong times.
   void leave_out_odometry(const std::string& file) {
-    log_.odometry = std::move(poses_.poses);
+    log_.odometry = std::move(poses_);
     std::erase_if(log_.refused, [](const RefusedLines& r) { return r.cause == kOdomStands; });
     log_.add_remark(
         file + ": its scans' poses lie beside its ODOM lines, as if corrected afterwards: all ODOM lines are left out");
@@ -163,8 +148,8 @@ class CarmenReader {
 
   RecordedLog& log_;
   const LaserMessage& laser_;
-  LogScans scans_;
-  LaserPoses poses_;
+  std::vector<OdometryPose> poses_;  ///< as the laser's lines have them
+  std::size_t beside_ = 0;           ///< of them, beside where the ODOM lines led
   std::vector<Event> events_;
   std::optional<Pose2> mount_;  ///< of the laser, by the poses of both
   bool mount_is_fixed_ = true;  ///< not so where one of them was corrected afterwards
@@ -172,14 +157,12 @@ class CarmenReader {
 
 /// The kind of laser message in the log that tells most; FLASER where there is none.
 const LaserMessage& laser_of(const std::filesystem::path& path) {
-  std::array<bool, kLasers.size()> has{};
+  std::size_t found = kLasers.size();
   LineFile file(path);
-  while (file.next()) {
-    for (std::size_t k = 0; k < kLasers.size(); ++k) has[k] = has[k] || file.words().front() == kLasers[k].name;
-    if (has.front()) break;
-  }
-  const auto* const found = std::find(has.begin(), has.end(), true);
-  return kLasers[found == has.end() ? 1 : static_cast<std::size_t>(found - has.begin())];
+  while (found > 0 && file.next())
+    for (std::size_t k = 0; k < found; ++k)
+      if (file.words().front() == kLasers[k].name) found = k;
+  return kLasers[found == kLasers.size() ? 1 : found];
 }
 
 }  // namespace

@@ -1,12 +1,9 @@
 #include "apps/formats/logs/line_file.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "hal/shown_text.h"
-#include "hal/text_file.h"
-#include "hal/types/errors.h"
 
 namespace jaywalk::sim {
 namespace {
@@ -14,47 +11,35 @@ namespace {
 /// Seconds that a count of nanoseconds in 64 bits holds, with room for sums: about 146 years.
 constexpr double kMaxSeconds = 4.6e9;
 
+/// Longest line that is read; a scan of 2,048 beams takes about 16 kB.
+constexpr std::size_t kMaxLineBytes = 1U << 20U;
+constexpr std::size_t kBlockBytes = 1U << 16U;
+
 }  // namespace
-
-struct TextLines::Stream {
-  GzipFile file;
-  std::array<char, 1U << 16U> block{};
-  std::size_t used = 0, size = 0;
-
-  explicit Stream(const char* path) : file(path) {}
-
-  /// Reads another block; false at the end.
-  bool refill() {
-    used = 0;
-    size = file.read(block.data(), block.size());
-    return size > 0;
-  }
-};
 
 TextLines::TextLines(const std::filesystem::path& file, const std::string& expected) : file_(file) {
   require_readable(file, name() + ": ", expected);
-  stream_ = std::make_unique<Stream>(file.c_str());
+  stream_.emplace(file.c_str());
 }
-
-TextLines::~TextLines() = default;
 
 bool TextLines::next() {
   text_.clear();
   ++line_;
   for (bool ended = false; !ended;) {
-    if (stream_->used == stream_->size) {
-      const bool more = stream_->refill();
-      if (stream_->file.broken()) refuse("the compressed file is damaged or cut", "fetch it again");
-      if (!more && text_.empty()) return false;
-      if (!more) break;
+    if (taken_ == block_.size()) {
+      block_.resize(kBlockBytes);
+      block_.resize(stream_->read(block_.data(), kBlockBytes));
+      taken_ = 0;
+      if (stream_->broken()) refuse("the compressed file is damaged or cut", "fetch it again");
+      if (block_.empty() && text_.empty()) return false;
+      if (block_.empty()) break;
     }
-    const std::string_view rest(stream_->block.data() + stream_->used, stream_->size - stream_->used);
-    const std::size_t end = rest.find('\n');
-    ended = end != std::string_view::npos;
-    const std::size_t taken = ended ? end : rest.size();
-    if (text_.size() + taken > kMaxLineBytes) refuse("a line of over 1 MiB", "give a text file");
-    text_.append(rest.substr(0, taken));
-    stream_->used += taken + (ended ? 1 : 0);
+    const std::string_view rest = std::string_view(block_).substr(taken_);
+    const std::string_view part = rest.substr(0, rest.find('\n'));
+    ended = part.size() < rest.size();
+    if (text_.size() + part.size() > kMaxLineBytes) refuse("a line of over 1 MiB", "give a text file");
+    text_.append(part);
+    taken_ += part.size() + (ended ? 1 : 0);
   }
   if (!text_.empty() && text_.back() == '\r') text_.pop_back();
   if (line_ == 1) drop_byte_order_mark(text_);
@@ -64,7 +49,7 @@ bool TextLines::next() {
 void LineFile::split() {
   words_.clear();
   constexpr std::string_view kBlank = " \t\r";
-  const std::string_view text = lines_.text();
+  const std::string_view text = TextLines::text();
   if (has_commas()) {
     for (std::size_t begin = 0; begin <= text.size();) {
       const std::size_t end = std::min(text.find(',', begin), text.size());
@@ -84,7 +69,7 @@ void LineFile::split() {
 }
 
 bool LineFile::next() {
-  while (lines_.next()) {
+  while (TextLines::next()) {
     split();
     if (!words_.empty() && !words_.front().starts_with('#')) return true;
   }

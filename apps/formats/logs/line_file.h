@@ -1,27 +1,22 @@
 #pragma once
-// A text file, plain or gzip, a line of words at a time.
 #include <cstddef>
 #include <filesystem>
-#include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "apps/formats/logs/recorded_log.h"
+#include "hal/text_file.h"
 
 namespace jaywalk::sim {
 
-// A text file, plain or gzip, a line at a time.
-
-/// Longest line that is read; a scan of 2,048 beams takes about 16 kB.
-inline constexpr std::size_t kMaxLineBytes = 1U << 20U;
-
+/// A text file, plain or gzip, a line at a time.
 class TextLines {
  public:
   /// `expected` says what to give instead where there is no such file ("give the path of a recording"). Throws
   /// StartupError when the file cannot be read.
   TextLines(const std::filesystem::path& file, const std::string& expected);
-  ~TextLines();
 
   /// Moves on to the next line; false at the end. Throws StartupError for a damaged or cut .gz and for a line that is
   /// too long.
@@ -36,23 +31,21 @@ class TextLines {
   }
 
  private:
-  struct Stream;
-
   std::filesystem::path file_;
-  std::unique_ptr<Stream> stream_;
+  std::optional<GzipFile> stream_;
+  std::string block_;      ///< read last
+  std::size_t taken_ = 0;  ///< bytes of it
   std::string text_;
   std::size_t line_ = 0;
 };
 
 /// Words are separated by spaces and tabs, or by commas where the line has one: then they may be empty. Lines that are
 /// empty or begin with '#' are skipped.
-class LineFile {
+class LineFile : public TextLines {
  public:
-  /// Throws StartupError when the file cannot be read.
-  explicit LineFile(const std::filesystem::path& file) : lines_(file, "give the path of a recording") {}
+  explicit LineFile(const std::filesystem::path& file) : TextLines(file, "give the path of a recording") {}
 
-  /// Moves on to the next line with words in it; false at the end. Throws StartupError for a
-  /// damaged or cut .gz and for a line that is too long.
+  /// TextLines::next() to the next line with words in it.
   [[nodiscard]] bool next();
   /// The line's words; valid until next().
   [[nodiscard]] const std::vector<std::string_view>& words() const { return words_; }
@@ -63,17 +56,12 @@ class LineFile {
   /// Word `i` as seconds that fit the time line. Throws StartupError where it is not.
   [[nodiscard]] double seconds(std::size_t i) const;
 
-  [[nodiscard]] bool has_commas() const { return lines_.text().find(',') != std::string::npos; }
-  [[nodiscard]] std::size_t line() const { return lines_.line(); }
-  [[nodiscard]] std::string name() const { return lines_.name(); }
+  [[nodiscard]] bool has_commas() const { return text().find(',') != std::string::npos; }
   [[nodiscard]] LogPlace place() const { return {name(), line()}; }
-  /// Throws StartupError "FILE:LINE: cause; remedy" for the line at hand.
-  [[noreturn]] void refuse(const std::string& cause, const std::string& remedy) const { lines_.refuse(cause, remedy); }
 
  private:
   void split();
 
-  TextLines lines_;
   std::vector<std::string_view> words_;
 };
 

@@ -11,12 +11,8 @@ namespace {
 
 constexpr Duration kLeap = std::chrono::seconds(1);  // a stamp so far ahead of a later one is the wrong one of the two
 
-struct Span {
-  Time first, last;
-};
-
 /// First and last stamp of the largest group without such a gap; the earliest of groups of equal size.
-Span largest_group(std::span<const Time> stamps) {
+std::pair<Time, Time> largest_group(std::span<const Time> stamps) {
   std::vector<Time> sorted(stamps.begin(), stamps.end());
   std::sort(sorted.begin(), sorted.end());
   std::size_t begin = 0, best = 0, most = 0;
@@ -49,11 +45,31 @@ std::vector<std::size_t> longest_rising(std::span<const Time> stamps, const std:
   return rising;
 }
 
-constexpr double kDrivesM = 0.02, kDrivesRad = 0.02;  // more than a standing robot's wheels make up
-// No laser turns faster than the one; recorded ones turn ten times a second more often than not.
-constexpr Duration kShortestStep = std::chrono::milliseconds(1), kOtherwise = std::chrono::milliseconds(100);
-
-bool drives(const Pose2& moved) { return norm(moved.position()) > kDrivesM || std::fabs(moved.heading) > kDrivesRad; }
+/// A cause for each stamp that is left out, nullptr for those that are kept, in the order of `stamps`: that of
+/// recording. Kept are, of the largest group without a gap of an hour, those of the longest sequence that rises
+/// strictly: a clock that was set right on the way costs the fewest.
+std::vector<const char*> judge_times(std::span<const Time> stamps) {
+  std::vector<const char*> causes(stamps.size(), kOtherClock);
+  if (stamps.empty()) return causes;
+  const auto [first, last] = largest_group(stamps);
+  std::vector<std::size_t> inside;
+  for (std::size_t k = 0; k < stamps.size(); ++k) {
+    if (stamps[k] < first || stamps[k] > last) continue;
+    inside.push_back(k);
+    causes[k] = kTimeStands;
+  }
+  const std::vector<std::size_t> rising = longest_rising(stamps, inside);
+  std::size_t next = 0;  // the first kept one that is not before k
+  for (const std::size_t k : inside) {
+    while (next < rising.size() && rising[next] < k) ++next;
+    if (next == rising.size()) continue;
+    if (rising[next] == k)
+      causes[k] = nullptr;
+    else if (stamps[k] > stamps[rising[next]])
+      causes[k] = kTimeLeapt;
+  }
+  return causes;
+}
 
 constexpr double kFarthestRange = 1000.0;  // m
 constexpr double kFarForRobots = 100.0;    // m; what means "nothing" may be more, the same for each beam
@@ -78,85 +94,48 @@ std::string fault_of(const RecordedScan& scan) {
 
 }  // namespace
 
-std::vector<const char*> judge_times(std::span<const Time> stamps) {
-  std::vector<const char*> causes(stamps.size(), kOtherClock);
-  if (stamps.empty()) return causes;
-  const Span group = largest_group(stamps);
-  std::vector<std::size_t> inside;
-  for (std::size_t k = 0; k < stamps.size(); ++k) {
-    if (stamps[k] < group.first || stamps[k] > group.last) continue;
-    inside.push_back(k);
-    causes[k] = kTimeStands;
-  }
-  const std::vector<std::size_t> rising = longest_rising(stamps, inside);
-  std::size_t next = 0;  // the first kept one that is not before k
-  for (const std::size_t k : inside) {
-    while (next < rising.size() && rising[next] < k) ++next;
-    if (next == rising.size()) continue;
-    if (rising[next] == k)
-      causes[k] = nullptr;
-    else if (stamps[k] > stamps[rising[next]])
-      causes[k] = kTimeLeapt;
-  }
-  return causes;
-}
-
-void LineClock::see(Time said, const Pose2& moved) noexcept {
-  if (lines_++ == 0)
-    first_ = last_ = said;
-  else if (said <= last_ && drives(moved))
-    ++stood_;
-  last_ = std::max(last_, said);
-}
-
-Time LineClock::even(std::size_t k) const {
-  const auto steps = static_cast<Duration::rep>(std::max<std::size_t>(lines_, 2) - 1);
-  const auto at = static_cast<Duration::rep>(k);
-  const Duration span = last_ - first_;
-  return span / steps >= kShortestStep ? first_ + Duration{span.count() / steps * at} : first_ + kOtherwise * at;
-}
-
-bool LogScans::add(const LogPlace& place, RecordedScan scan, std::span<const double> ranges, double nothing_from_m) {
+bool add_scan(RecordedLog& log, const LogPlace& place, RecordedScan scan, std::span<const double> ranges,
+              double nothing_from_m) {
   if (const std::string fault = fault_of(scan); !fault.empty()) {
-    log_.refuse(place, fault);
+    log.refuse(place, fault);
     return false;
   }
   nothing_from_m = std::min(nothing_from_m, kFarthestRange);
   scan.range_max_m = std::min(scan.range_max_m, static_cast<float>(kFarthestRange));
-  scan.first_range = log_.range_m.size();
+  scan.first_range = log.range_m.size();
   double far = 0.0;  // the last of them
   for (const double range : ranges) {
     if (std::isfinite(range) && range > kFarForRobots) {
-      if (far > 0.0 && std::fabs(range - far) > 0.5) ++log_.far_ranges;
+      if (far > 0.0 && std::fabs(range - far) > 0.5) ++log.far_ranges;
       far = range;
     }
-    log_.range_m.push_back(static_cast<float>(range >= nothing_from_m ? kNoLimit : range));
+    log.range_m.push_back(static_cast<float>(range >= nothing_from_m ? kNoLimit : range));
   }
-  log_.scans.push_back(scan);
-  numbers_.push_back(place.number);
+  scan.number = place.number;
+  log.scans.push_back(scan);
   return true;
 }
 
-std::vector<bool> LogScans::settle_times(LogPlace place) {
+std::vector<bool> settle_times(RecordedLog& log, LogPlace place) {
   std::vector<Time> stamps;
-  for (const RecordedScan& scan : log_.scans) stamps.push_back(scan.stamp);
+  for (const RecordedScan& scan : log.scans) stamps.push_back(scan.stamp);
   const std::vector<const char*> causes = judge_times(stamps);
   std::vector<bool> stays;
   std::vector<float> ranges;
   for (std::size_t k = 0; k < causes.size(); ++k) {
     stays.push_back(causes[k] == nullptr);
-    RecordedScan& scan = log_.scans[k];
+    RecordedScan& scan = log.scans[k];
     if (stays.back()) {
-      const auto from = log_.range_m.begin() + static_cast<std::ptrdiff_t>(scan.first_range);
+      const auto from = log.range_m.begin() + static_cast<std::ptrdiff_t>(scan.first_range);
       scan.first_range = ranges.size();
       ranges.insert(ranges.end(), from, from + scan.beams);
     } else {
-      place.number = numbers_[k];
-      log_.refuse(place, causes[k]);
+      place.number = scan.number;
+      log.refuse(place, causes[k]);
     }
   }
-  keep(log_.scans, stays);
-  log_.range_m = std::move(ranges);
+  keep(log.scans, stays);
+  log.range_m = std::move(ranges);
   return stays;
 }
 
@@ -166,8 +145,7 @@ void require_scans(const RecordedLog& log, const std::string& file, const std::s
   if (!log.scans.empty()) return;
   if (log.refused.empty()) throw StartupError(file + ": no scan in it", "give a file of " + expected);
   const RefusedLines& first = log.refused.front();
-  LogPlace{first.file, first.first_line, first.unit}.refuse("no scan in it: " + first.cause,
-                                                            "give a file of " + expected);
+  first.place.refuse("no scan in it: " + first.cause, "give a file of " + expected);
 }
 
 void remark_gaps(RecordedLog& log, const std::string& file) {
@@ -203,62 +181,59 @@ void LogOdometry::add(const OdometryPose& said, const LogPlace& place) {
   if (!pose) return log_.refuse(place, kNoPose);
   const Twist2 twist = said.twist.value_or(Twist2{});
   if (std::fabs(twist.v_mps) <= kFastest && std::fabs(twist.w_radps) <= kFastest)
-    said_.push_back({{said.stamp, *pose, said.twist}, place.number});
+    said_.push_back({said.stamp, *pose, said.twist, place.number});
   else
-    without_speed_.push_back({{said.stamp, *pose, std::nullopt}, place.number});
+    without_speed_.push_back({said.stamp, *pose, std::nullopt, place.number});
 }
 
 void LogOdometry::settle(LogPlace place) {
   if (said_.empty()) std::swap(said_, without_speed_);
-  for (const Said& said : without_speed_) {
+  for (const OdometryPose& said : without_speed_) {
     place.number = said.number;
     log_.refuse(place, "a speed that is none");
   }
   leave_out_distant_times(place);
   std::vector<Time> stamps;
-  for (const Said& said : said_) stamps.push_back(said.pose.stamp);
+  for (const OdometryPose& said : said_) stamps.push_back(said.stamp);
   const std::vector<const char*> causes = judge_times(stamps);
   for (std::size_t k = 0; k < said_.size(); ++k) {
     place.number = said_[k].number;
-    if (causes[k] == nullptr) append(said_[k].pose, place);
+    if (causes[k] == nullptr) append(said_[k], place);
     if (causes[k] != nullptr) log_.refuse(place, causes[k]);
   }
   if (!log_.odometry.empty()) return;
   for (const RefusedLines& refused : log_.refused) {
-    if (refused.file == place.file)
-      LogPlace{refused.file, refused.first_line, refused.unit}.refuse("no odometry in it: " + refused.cause,
-                                                                      "give other odometry, or the scans alone");
+    if (refused.place.file == place.file)
+      refused.place.refuse("no odometry in it: " + refused.cause, "give other odometry, or the scans alone");
   }
 }
 
 /// Unless all are: then the clocks were never set by one another, which compare_times tells.
 void LogOdometry::leave_out_distant_times(const LogPlace& place) {
-  const auto is_near = [&](const Said& said) {
-    return said.pose.stamp + kOtherClockFrom >= log_.scans.front().stamp &&
-           said.pose.stamp - kOtherClockFrom <= log_.scans.back().stamp;
+  const auto is_near = [&](const OdometryPose& said) {
+    return said.stamp + kOtherClockFrom >= log_.scans.front().stamp &&
+           said.stamp - kOtherClockFrom <= log_.scans.back().stamp;
   };
   if (std::none_of(said_.begin(), said_.end(), is_near)) return;
-  LogPlace at = place;
-  for (const Said& said : said_) {
-    at.number = said.number;
-    if (!is_near(said)) log_.refuse(at, kOtherClock);
-  }
-  std::erase_if(said_, [&](const Said& said) { return !is_near(said); });
+  std::erase_if(said_, [&](const OdometryPose& said) {
+    if (is_near(said)) return false;
+    log_.refuse({place.file, said.number, place.unit}, kOtherClock);
+    return true;
+  });
 }
 
 void LogOdometry::append(OdometryPose said, const LogPlace& place) {
-  if (!log_.odometry.empty() && jumps(log_.odometry.back(), said)) {
-    here_from_said_ = log_.odometry.back().pose * inverse(said.pose);
-    log_.refuse(place, "it jumps farther than robots drive: taken to begin anew there");
-  } else {
-    said.pose = here_from_said_ * said.pose;
-    log_.odometry.push_back(said);
+  const Pose2 here = here_from_said_ * said.pose;
+  if (!log_.odometry.empty()) {
+    const OdometryPose& last = log_.odometry.back();
+    const double drives_m = kJumpM + kFastestDriveMps * to_seconds(said.stamp - last.stamp);
+    if (distance(here.position(), last.pose.position()) > drives_m) {
+      here_from_said_ = last.pose * inverse(said.pose);
+      return log_.refuse(place, "it jumps farther than robots drive: taken to begin anew there");
+    }
   }
-}
-
-bool LogOdometry::jumps(const OdometryPose& last, const OdometryPose& said) const {
-  const double drives_m = kJumpM + kFastestDriveMps * to_seconds(said.stamp - last.stamp);
-  return distance((here_from_said_ * said.pose).position(), last.pose.position()) > drives_m;
+  said.pose = here;
+  log_.odometry.push_back(said);
 }
 
 void compare_times(RecordedLog& log, const std::string& odometry_name) {
@@ -275,11 +250,11 @@ void compare_times(RecordedLog& log, const std::string& odometry_name) {
                  formatted(": nothing of %.1f of the %.1f s of scans: no wheels there", without_s, all_s));
 }
 
-bool add_scan(LogScans& scans, const LineFile& file, const RecordedScan& scan, std::size_t first_word,
+bool add_scan(RecordedLog& log, const LineFile& file, const RecordedScan& scan, std::size_t first_word,
               double nothing_from_m) {
   std::vector<double> ranges(scan.beams);
   for (std::size_t i = 0; i < scan.beams; ++i) ranges[i] = file.number(first_word + i);
-  return scans.add(file.place(), scan, ranges, nothing_from_m);
+  return add_scan(log, file.place(), scan, ranges, nothing_from_m);
 }
 
 Pose2 pose_at(const LineFile& file, std::size_t i) { return {file.number(i), file.number(i + 1), file.number(i + 2)}; }

@@ -21,55 +21,15 @@ inline constexpr const char* kOtherClock = "its time is over an hour from the ot
 /// A tick lasts 20 ms: a clock that was set right would be replayed for ever.
 inline constexpr Duration kOtherClockFrom = std::chrono::hours(1);
 
-/// A cause for each stamp that is left out, nullptr for those that are kept, in the order of `stamps`: that of
-/// recording. Kept are, of the largest group without a gap of an hour, those of the longest sequence that rises
-/// strictly: a clock that was set right on the way costs the fewest.
-[[nodiscard]] std::vector<const char*> judge_times(std::span<const Time> stamps);
-
-// Whether the times in a recording can be the laser's, and even ones where they cannot.
-
-/// Some recordings were stamped by a program that went through them later: a dozen scans share a stamp while the robot
-/// drives two metres, and times between them tell how long that program took. Where that is so in five lines, and
-/// one of a hundred, no time in the file is of use: give the lines out again, evenly between the first stamp and the
-/// last.
-class LineClock {
- public:
-  /// A line's stamp, and how the robot moved since the line before.
-  void see(Time said, const Pose2& moved) noexcept;
-
-  /// Whether the stamps seen cannot be the laser's.
-  [[nodiscard]] bool wrong() const { return stood_ >= kFewest && stood_ * kOneLineIn > lines_; }
-  /// Lines in which the robot drove though time stood still.
-  [[nodiscard]] std::size_t stood() const { return stood_; }
-
-  /// Evenly spaced time of line `k`, from the first stamp to the last; at 10 Hz where both are the same.
-  [[nodiscard]] Time even(std::size_t k) const;
-
- private:
-  static constexpr std::size_t kFewest = 5, kOneLineIn = 100;
-
-  std::size_t lines_ = 0, stood_ = 0;
-  Time first_ = kNever, last_ = kNever;
-};
-
 inline constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
-/// The scans of a log, in the order of recording. add() skips and counts scans with invalid beam angles;
-/// settle_times() skips and counts scans with wrong stamps (judge_times).
-class LogScans {
- public:
-  explicit LogScans(RecordedLog& log) : log_(log) {}
-
-  /// Appends `ranges` (m, one a beam) and the scan itself. Readings of `nothing_from_m`, or 1 km, and over become
-  /// infinite. False where it was left out.
-  bool add(const LogPlace& place, RecordedScan scan, std::span<const double> ranges, double nothing_from_m);
-  /// Leaves out those of wrong times: for each that was added whether it stays. `place`: theirs, with any number.
-  std::vector<bool> settle_times(LogPlace place);
-
- private:
-  RecordedLog& log_;
-  std::vector<std::size_t> numbers_;  ///< where each stands
-};
+/// Appends a scan and its ranges (m, one a beam). Readings of `nothing_from_m`, or 1 km, and over become infinite.
+/// False where it was left out and counted: its beam angles or limits are invalid.
+bool add_scan(RecordedLog& log, const LogPlace& place, RecordedScan scan, std::span<const double> ranges,
+              double nothing_from_m);
+/// Leaves out and counts scans of wrong times (judge_times): for each that was added whether it stays. `place`: theirs,
+/// with any number.
+std::vector<bool> settle_times(RecordedLog& log, LogPlace place);
 
 /// Removes of `list` what does not stay.
 template <class Item>
@@ -107,28 +67,20 @@ class LogOdometry {
  private:
   void leave_out_distant_times(const LogPlace& place);
   void append(OdometryPose said, const LogPlace& place);
-  [[nodiscard]] bool jumps(const OdometryPose& last, const OdometryPose& said) const;
 
-  struct Said {
-    OdometryPose pose;
-    std::size_t number = 0;
-  };
   RecordedLog& log_;
   std::optional<Vec2> origin_;
-  std::vector<Said> said_, without_speed_;
+  std::vector<OdometryPose> said_, without_speed_;
   Pose2 here_from_said_;  ///< from the frame of the poses at hand to that of the first
 };
 
-/// Two clocks that were never set by one another give times that do not meet: an error where none of the odometry is of
-/// the scans' time, a remark from a second without it on.
+/// Throws StartupError where none of the odometry is of the scans' time; remarks on a second or more without odometry.
 void compare_times(RecordedLog& log, const std::string& odometry_name);
-
-// What the readers of the text formats share.
 
 inline constexpr const char* kWrongLength = "its number of words does not fit";
 
-/// LogScans::add with the ranges in words [first_word, first_word + scan.beams).
-bool add_scan(LogScans& scans, const LineFile& file, const RecordedScan& scan, std::size_t first_word,
+/// add_scan() with the ranges in words [first_word, first_word + scan.beams).
+bool add_scan(RecordedLog& log, const LineFile& file, const RecordedScan& scan, std::size_t first_word,
               double nothing_from_m);
 
 /// Word i, i + 1, i + 2 as a pose.

@@ -6,93 +6,6 @@
 namespace jaywalk::sim {
 namespace {
 
-class ReplayClock final : public Clock {
- public:
-  explicit ReplayClock(Time start) : now_(start) {}
-  Time now() noexcept override { return now_; }
-  void sleep_until(Time wake) noexcept override { now_ = std::max(now_, wake); }
-
- private:
-  Time now_;
-};
-
-class ReplayLaser final : public LaserScanner {
- public:
-  ReplayLaser(const RecordedLog& log, Clock& clock) : log_(log), clock_(clock) {
-    const double rate_hz = log.laser().rate_hz;
-    scan_.sweep = log.sweep;
-    if (rate_hz > 0.0) scan_.period = duration_from_seconds(1.0 / rate_hz);
-  }
-  const LaserScan& latest() noexcept override {
-    const Time now = clock_.now();
-    const std::size_t shown = seen_;
-    while (seen_ < log_.scans.size() && log_.scans[seen_].stamp <= now) ++seen_;
-    if (seen_ != shown) show(log_.scans[seen_ - 1]);
-    return scan_;
-  }
-
- private:
-  void show(const RecordedScan& recorded) noexcept {
-    scan_.stamp = recorded.stamp;
-    scan_.sequence = static_cast<std::uint32_t>(seen_);
-    scan_.beam_count = recorded.beams;
-    scan_.first_angle_rad = recorded.first_angle_rad;
-    scan_.angle_step_rad = recorded.angle_step_rad;
-    scan_.range_min_m = recorded.range_min_m;
-    scan_.range_max_m = recorded.range_max_m;
-    std::copy_n(log_.range_m.data() + recorded.first_range, recorded.beams, scan_.range_m.data());
-  }
-
-  const RecordedLog& log_;
-  Clock& clock_;
-  LaserScan scan_;
-  std::size_t seen_ = 0;  ///< scans whose time has come
-};
-
-class ReplayDrive final : public DriveBase {
- public:
-  ReplayDrive(const std::vector<OdometryPose>& odometry, Clock& clock)
-      : trail_(filled_in(wheel_trail(odometry, nominal_drive()))), clock_(clock) {}
-  WheelState latest() noexcept override {
-    const Time now = clock_.now();
-    while (seen_ < trail_.size() && trail_[seen_].stamp <= now) ++seen_;
-    return seen_ == 0 ? WheelState{} : trail_[seen_ - 1];
-  }
-  void command(const WheelCommand& /*ignored*/) noexcept override {}
-  [[nodiscard]] const std::vector<WheelState>& trail() const noexcept { return trail_; }
-
- private:
-  std::vector<WheelState> trail_;
-  Clock& clock_;
-  std::size_t seen_ = 0;
-};
-
-class ReplayPanel final : public OperatorPanel {
- public:
-  explicit ReplayPanel(Clock& clock) : clock_(clock) {}
-  OperatorInput latest() noexcept override {
-    input_.stamp = clock_.now();
-    return input_;
-  }
-  void set_goal(Vec2 goal_in_map, double tolerance_m) noexcept {
-    input_.has_goal = true;
-    input_.goal_in_map = goal_in_map;
-    input_.goal_tolerance_m = tolerance_m;
-  }
-
- private:
-  Clock& clock_;
-  OperatorInput input_;
-};
-
-class NoPoseSource final : public PoseSource {
- public:
-  const OutsideFix& latest() noexcept override { return none_; }
-
- private:
-  OutsideFix none_;
-};
-
 /// The newest pose that is not younger than `at`, else the first; nothing without odometry.
 std::optional<Pose2> pose_at(const std::vector<OdometryPose>& odometry, Time at) {
   if (odometry.empty()) return std::nullopt;
@@ -102,36 +15,58 @@ std::optional<Pose2> pose_at(const std::vector<OdometryPose>& odometry, Time at)
 
 }  // namespace
 
-struct LogReplay::State {
-  RecordedLog log;
-  ReplayClock clock{log.scans.front().stamp};
-  ReplayLaser laser{log, clock};
-  ReplayDrive drive{log.odometry, clock};
-  ReplayPanel panel{clock};
-  NoPoseSource pose_source;
-
-  explicit State(RecordedLog recorded) : log(std::move(recorded)) {}
-};
-
-LogReplay::LogReplay(RecordedLog log) : state_(std::make_unique<State>(std::move(log))) {}
-LogReplay::~LogReplay() = default;
+LogReplay::LogReplay(RecordedLog log)
+    : log_(std::move(log)),
+      trail_(filled_in(wheel_trail(log_.odometry, nominal_drive()))),
+      shown_(std::make_unique<TickRecord>()),
+      devices_(*shown_) {
+  const double rate_hz = log_.laser().rate_hz;
+  shown_->scan.sweep = log_.sweep;
+  if (rate_hz > 0.0) shown_->scan.period = duration_from_seconds(1.0 / rate_hz);
+  shown_->now = start_time();
+  sleep_until(start_time());
+}
 
 Hal LogReplay::hal() noexcept {
-  return {state_->laser, state_->drive, state_->panel, state_->pose_source, state_->clock};
+  const Hal hal = devices_.hal();
+  return {hal.laser, hal.drive, hal.panel, hal.pose_source, *this};
 }
+
 void LogReplay::set_goal(Vec2 goal_in_map, double tolerance_m) noexcept {
-  state_->panel.set_goal(goal_in_map, tolerance_m);
+  shown_->input.has_goal = true;
+  shown_->input.goal_in_map = goal_in_map;
+  shown_->input.goal_tolerance_m = tolerance_m;
 }
-bool LogReplay::ended() const noexcept { return state_->clock.now() >= end_time(); }
-Time LogReplay::start_time() const noexcept { return state_->log.scans.front().stamp; }
-Time LogReplay::end_time() const noexcept { return state_->log.scans.back().stamp; }
-Pose2 LogReplay::start_pose() const noexcept { return pose_at(state_->log.odometry, start_time()).value_or(Pose2{}); }
-std::optional<Pose2> LogReplay::last_pose() const noexcept { return pose_at(state_->log.odometry, end_time()); }
+
+Pose2 LogReplay::start_pose() const noexcept { return pose_at(log_.odometry, start_time()).value_or(Pose2{}); }
+
+std::optional<Pose2> LogReplay::last_pose() const noexcept { return pose_at(log_.odometry, end_time()); }
+
 DriveModel LogReplay::drive() const {
   DriveModel drive = nominal_drive();
-  drive.times = report_times(state_->drive.trail());
+  drive.times = report_times(trail_);
   return drive;
 }
-const RecordedLog& LogReplay::log() const noexcept { return state_->log; }
+
+void LogReplay::sleep_until(Time wake) noexcept {
+  const Time now = shown_->now = shown_->input.stamp = std::max(shown_->now, wake);
+  const std::size_t seen = scans_seen_;
+  while (scans_seen_ < log_.scans.size() && log_.scans[scans_seen_].stamp <= now) ++scans_seen_;
+  if (scans_seen_ != seen) show(log_.scans[scans_seen_ - 1]);
+  while (wheels_seen_ < trail_.size() && trail_[wheels_seen_].stamp <= now) ++wheels_seen_;
+  if (wheels_seen_ > 0) shown_->wheels = trail_[wheels_seen_ - 1];
+}
+
+void LogReplay::show(const RecordedScan& recorded) noexcept {
+  LaserScan& scan = shown_->scan;
+  scan.stamp = recorded.stamp;
+  scan.sequence = static_cast<std::uint32_t>(scans_seen_);
+  scan.beam_count = recorded.beams;
+  scan.first_angle_rad = recorded.first_angle_rad;
+  scan.angle_step_rad = recorded.angle_step_rad;
+  scan.range_min_m = recorded.range_min_m;
+  scan.range_max_m = recorded.range_max_m;
+  std::copy_n(log_.range_m.data() + recorded.first_range, recorded.beams, scan.range_m.data());
+}
 
 }  // namespace jaywalk::sim

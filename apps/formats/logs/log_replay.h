@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "apps/formats/logs/recorded_log.h"
-#include "hal/hal.h"
+#include "firmware/recording/recorded_hal.h"
 
 namespace jaywalk::sim {
 
@@ -14,31 +14,39 @@ namespace jaywalk::sim {
 ///
 /// A scan appears at its stamp, though its sweep takes RecordedLog::sweep.
 /// The constructor allocates, nothing else does. Thread: the loop's.
-class LogReplay {
+class LogReplay final : private Clock {
  public:
   /// Takes over the log, which has at least one scan.
   explicit LogReplay(RecordedLog log);
-  ~LogReplay();
+  LogReplay(const LogReplay&) = delete;
+  LogReplay& operator=(const LogReplay&) = delete;
 
   [[nodiscard]] Hal hal() noexcept;
   /// What the operator wants from now on.
   void set_goal(Vec2 goal_in_map, double tolerance_m) noexcept;
 
   /// True once the last scan has been reached.
-  [[nodiscard]] bool ended() const noexcept;
-  [[nodiscard]] Time start_time() const noexcept;  ///< of the first scan; the clock begins here
-  [[nodiscard]] Time end_time() const noexcept;    ///< of the last scan
+  [[nodiscard]] bool ended() const noexcept { return shown_->now >= end_time(); }
+  [[nodiscard]] Time start_time() const noexcept { return log_.scans.front().stamp; }
+  [[nodiscard]] Time end_time() const noexcept { return log_.scans.back().stamp; }
   /// Where the odometry says that the robot was at start_time(); zero without odometry.
   [[nodiscard]] Pose2 start_pose() const noexcept;
   /// Where the recording says that it was at end_time(); nothing without odometry.
   [[nodiscard]] std::optional<Pose2> last_pose() const noexcept;
   /// The drive that the replayed wheel angles belong to, and how often it reports.
   [[nodiscard]] DriveModel drive() const;
-  [[nodiscard]] const RecordedLog& log() const noexcept;
+  [[nodiscard]] const RecordedLog& log() const noexcept { return log_; }
 
  private:
-  struct State;
-  std::unique_ptr<State> state_;
+  [[nodiscard]] Time now() noexcept override { return shown_->now; }
+  void sleep_until(Time wake) noexcept override;
+  void show(const RecordedScan& recorded) noexcept;
+
+  RecordedLog log_;
+  std::vector<WheelState> trail_;
+  std::unique_ptr<TickRecord> shown_;  ///< newest readings
+  RecordedHal devices_;
+  std::size_t scans_seen_ = 0, wheels_seen_ = 0;  ///< readings whose time has come
 };
 
 }  // namespace jaywalk::sim

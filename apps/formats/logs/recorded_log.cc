@@ -167,19 +167,21 @@ void LogPlace::refuse(const std::string& cause, const std::string& remedy) const
 }
 
 void RecordedLog::refuse(const LogPlace& place, std::string_view cause) {
-  const auto known = std::find_if(refused.begin(), refused.end(),
-                                  [&](const RefusedLines& r) { return r.file == place.file && r.cause == cause; });
+  const auto known = std::find_if(refused.begin(), refused.end(), [&](const RefusedLines& r) {
+    return r.place.file == place.file && r.cause == cause;
+  });
   if (known != refused.end())
     ++known->count;
   else
-    refused.push_back({place.file, std::string(cause), place.number, 1, place.unit});
+    refused.push_back({place, std::string(cause), 1});
 }
 
 std::string RecordedLog::complaint() const {
   std::string text;
   for (const RefusedLines& r : refused) {
-    text += r.file + ": " + std::to_string(r.count) + " " + r.unit + (r.count == 1 ? "" : "s") +
-            " left out, the first is " + r.unit + " " + std::to_string(r.first_line) + ": " + r.cause + "\n";
+    const auto& [file, number, unit] = r.place;
+    text += file + ": " + std::to_string(r.count) + " " + unit + (r.count == 1 ? "" : "s") +
+            " left out, the first is " + unit + " " + std::to_string(number) + ": " + r.cause + "\n";
   }
   return remark.empty() ? text : text + remark + "\n";
 }
@@ -202,7 +204,7 @@ LaserModel RecordedLog::laser() const {
   const RecordedScan& first = scans.front();
   const double step = static_cast<double>(first.angle_step_rad);
   laser.beams = first.beams;
-  laser.fov_rad = (step < 0.0 ? -step : step) * static_cast<double>(first.beams - 1);
+  laser.fov_rad = std::fabs(step) * static_cast<double>(first.beams - 1);
   laser.range_min_m = static_cast<double>(first.range_min_m);
   laser.range_max_m = static_cast<double>(first.range_max_m);
   const Duration period = median_period(scans);
@@ -215,10 +217,10 @@ Duration RecordedLog::spinning_sweep() const {
   return duration_from_seconds(turn_s * laser().fov_rad / (2.0 * kPi));
 }
 
-BeamFan carmen_fan(std::size_t beams, double aperture_rad) {
+BeamAngles carmen_fan(std::size_t beams, double aperture_rad) {
   const std::size_t steps = beams % 2 == 0 ? beams : beams - 1;
   const double step = steps == 0 ? aperture_rad : aperture_rad / static_cast<double>(steps);
-  return {static_cast<float>(-aperture_rad / 2.0), static_cast<float>(step)};
+  return {-aperture_rad / 2.0, step, beams};
 }
 
 std::ptrdiff_t BeamAngles::beam_at(double angle) const {

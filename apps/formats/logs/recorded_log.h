@@ -21,28 +21,25 @@ namespace jaywalk::sim {
 struct OdometryPose {
   Time stamp = kNever;
   Pose2 pose;
-  std::optional<Twist2> twist;  ///< where the recording says it
+  std::optional<Twist2> twist = std::nullopt;  ///< where the recording says it
+  std::size_t number = 0;                      ///< of its line or message, while it is read
 };
 
-/// The drive that replayed wheel angles belong to. Recordings do not say what drove, and any
-/// differential drive would do: integrating the angles uses the same numbers.
+/// The drive that replayed wheel angles belong to: any would do, as integrating the angles uses the same numbers.
 [[nodiscard]] DriveModel nominal_drive();
 
 /// Wheel readings that a differential drive integrating exact arcs turns back into the poses. Angles begin at zero with
 /// the first pose.
 ///
-/// Between two poses the drive runs along a circle's arc through the heading's change da: its
-/// length is s = c (da/2) / sin(da/2) with c the displacement along the mean heading. What lies
-/// across it (side slip, a SLAM correction) no such drive can do in a moment; it stays as an error of position
-/// and is made up for as soon as the robot has turned. Poses more than 0.15 s apart that no arc joins to 1 cm were
-/// joined by another way: the drive turns, drives straight and turns, in thirds of the time, with a reading after each.
-/// But not where up to 3 cm aside would take a turn of over 15 degrees: scans between would be seen that far turned.
-/// Heading is exact at every pose. Speeds are the recording's where it has them, else differences. `poses` has rising
-/// stamps.
+/// Between two poses the drive runs along a circle's arc through the heading's change da: its length is
+/// s = c (da/2) / sin(da/2) with c the displacement along the mean heading. A displacement across it (side slip, a SLAM
+/// correction) stays as an error of position until the robot has turned. Poses more than 0.15 s apart that no arc joins
+/// to 1 cm: the drive turns, drives straight and turns, in thirds of the time, with a reading after each, unless up to
+/// 3 cm aside would take a turn of over 15 degrees: scans between would be seen that far turned. Heading is exact at
+/// every pose. Speeds are the recording's where it has them, else differences. `poses` has rising stamps.
 [[nodiscard]] std::vector<WheelState> wheel_trail(const std::vector<OdometryPose>& poses, const DriveModel& drive);
 
-/// The same with readings every 0.1 s at least, the wheels turning evenly, where two are up to 1.5 s apart: wheels that
-/// were recorded seldom turned all the same, and scans between ask where they were.
+/// The same with readings every 0.1 s at least, the wheels turning evenly, where two are up to 1.5 s apart.
 [[nodiscard]] std::vector<WheelState> filled_in(const std::vector<WheelState>& trail);
 
 /// Times of a trail's reports: the median period, and the 95th percentile of lateness beyond it. At least a loop's
@@ -52,6 +49,7 @@ struct OdometryPose {
 /// One sweep; its ranges are `RecordedLog::range_m[first_range]` and on.
 struct RecordedScan {
   Time stamp = kNever;
+  std::size_t number = 0;  ///< of its line or message
   std::size_t first_range = 0;
   std::uint32_t beams = 0;
   float first_angle_rad = 0.0F;
@@ -72,11 +70,9 @@ struct LogPlace {
 
 /// Lines of one file, or messages of one topic, that were left out for one reason.
 struct RefusedLines {
-  std::string file;
+  LogPlace place;  ///< of the first
   std::string cause;
-  std::size_t first_line = 0;
   std::size_t count = 0;
-  std::string unit = "line";
 };
 
 /// Stamps are seconds since the recording's own epoch; both lists rise strictly.
@@ -87,9 +83,9 @@ struct RecordedLog {
   std::vector<float> range_m;          ///< of all scans, one after the other
   std::vector<OdometryPose> odometry;  ///< empty where the recording has none
   std::vector<RefusedLines> refused;   ///< what was left out; empty for a clean recording
-  std::vector<Time> own_stamps;  ///< of the scans, as recorded, where theirs are even instead (LineClock); or empty
-  std::size_t far_ranges = 0;    ///< over 100 m, and another than the last one over 100 m
-  std::string remark;            ///< what else a person should know, a line each; or empty
+  std::vector<Time> own_stamps;        ///< of the scans, as recorded, where theirs are even instead; or empty
+  std::size_t far_ranges = 0;          ///< over 100 m, and another than the last one over 100 m
+  std::string remark;                  ///< what else a person should know, a line each; or empty
 
   /// Counts what is left out; the first of its kind is remembered.
   void refuse(const LogPlace& place, std::string_view cause);
@@ -108,45 +104,31 @@ struct RecordedLog {
 /// Reads `scan_file`: a scan a line, told apart by the place of the number of beams n, which must
 /// agree with the length of the line:
 ///   t angle_min angle_inc range_min range_max n r1..rn
-///   t dx dy dphi aperture max_range n r1..rn       carries its own odometry: the robot's motion
-///                                                  since the line before, in its frame then
-/// and `odom_file`, where given: t x y yaw v w. Metres, radians, seconds; .gz as it is. In the
-/// second form the beams spread over the aperture as CARMEN's do (load_carmen), and the motion of
-/// a line that is left out still counts; where their times cannot be the laser's, LineClock's even ones take their
-/// place. Lasers of the first form are taken to spin (RecordedLog::spinning_sweep): a robot that turns sees the whole
-/// room bent otherwise. Those of the second form and of CARMEN turn too fast to matter.
+///   t dx dy dphi aperture max_range n r1..rn       (own odometry: the motion since the line before, in its frame then)
+/// and `odom_file`, where given: t x y yaw v w. Metres, radians, seconds; .gz as it is. In the second form the beams
+/// spread over the aperture as CARMEN's do (load_carmen), the motion of a line that is left out still counts, and even
+/// times take the place of times that cannot be the laser's. Lasers of the first form are taken to spin
+/// (spinning_sweep): a robot that turns sees the whole room bent otherwise. The others turn too fast to matter.
 ///
-/// The reader leaves out and counts lines of a wrong length, lines with values that are no scan, pose or speed, and
-/// lines with wrong stamps (judge_times). Scans of changing numbers of beams get one (fit_beams).
-/// Odometry none of which is of the scans' time is an error, and what it lacks of that is remarked upon from a second
-/// on. Odometry that jumps farther than a robot drives is taken to begin anew there, where the robot is. Throws
-/// StartupError "FILE:LINE: cause; remedy" for anything else that is wrong, and when no scan is left.
+/// Leaves out and counts lines of a wrong length, lines with values that are no scan, pose or speed, and lines with
+/// wrong stamps (judge_times). Scans of changing numbers of beams get one (fit_beams). Odometry that jumps farther than
+/// a robot drives begins anew where the robot is. Throws StartupError "FILE:LINE: cause; remedy" for odometry none of
+/// which is of the scans' time (compare_times), for anything else that is wrong, and when no scan is left.
 [[nodiscard]] RecordedLog load_scan_odom(const std::filesystem::path& scan_file,
                                          const std::optional<std::filesystem::path>& odom_file = std::nullopt,
                                          const Pose2& robot_from_laser = {});
 
-/// Reads a CARMEN log: ODOM lines and those of its laser, ROBOTLASER1, FLASER or RAWLASER1, the first of these that it
-/// has; other messages are passed over. .gz as it is. The newer two say where their beams are, and ROBOTLASER1 where
-/// the laser is: that counts where `robot_from_laser` is zero.
+/// Reads a CARMEN log, .gz as it is: ODOM lines and those of its laser, ROBOTLASER1, FLASER or RAWLASER1, the first of
+/// these that it has. The newer two say where their beams are, and ROBOTLASER1 where the laser is: that counts where
+/// `robot_from_laser` is zero.
 ///
-/// FLASER's scanner looks ahead over 180 degrees; beam 0 points to -90 degrees. An even number n of beams
-/// is 180/n degrees apart, an odd one 180/(n - 1): 180 and 181 beams both at one degree. Readings
-/// of 50 m and over are the scanners' codes for "nothing" and become infinite.
-/// Odometry is the robot's pose in the laser's lines, and the ODOM lines between them. Where a log's
-/// poses were corrected afterwards its ODOM lines repeat, go back in time or jump; those that do not
-/// come after what is known are left out and counted, and a laser's line overrules what it contradicts. Where more than
-/// one scan in ten lies a centimetre beside where the ODOM lines led, those are of another frame, and all are left out.
-/// Errors as load_scan_odom.
+/// FLASER's scanner looks ahead over 180 degrees; beam 0 points to -90 degrees. An even number n of beams is 180/n
+/// degrees apart, an odd one 180/(n - 1): 180 and 181 beams both at one degree. Readings of 50 m and over are the
+/// scanners' codes for "nothing" and become infinite. Odometry is the robot's pose in the laser's lines, and the ODOM
+/// lines between them. Where a log's poses were corrected afterwards its ODOM lines repeat, go back in time or jump:
+/// those that do not come after what is known are left out and counted, a laser's line overrules what it contradicts,
+/// and all are left out where more than one scan in ten lies a centimetre beside them. Errors as load_scan_odom.
 [[nodiscard]] RecordedLog load_carmen(const std::filesystem::path& file, const Pose2& robot_from_laser = {});
-
-/// Angles of `beams` readings over an aperture centred ahead, as CARMEN counts them.
-struct BeamFan {
-  float first_angle_rad = 0.0F;
-  float angle_step_rad = 0.0F;
-};
-[[nodiscard]] BeamFan carmen_fan(std::size_t beams, double aperture_rad);
-
-// Resamples scans to one number of beams. Drivers of spinning lasers publish a different number each turn.
 
 /// The directions of a scan's beams.
 struct BeamAngles {
@@ -158,12 +140,15 @@ struct BeamAngles {
   [[nodiscard]] std::ptrdiff_t beam_at(double angle) const;
 };
 
+/// `beams` readings over an aperture centred ahead, as CARMEN counts them.
+[[nodiscard]] BeamAngles carmen_fan(std::size_t beams, double aperture_rad);
+
 /// Fills `out`, a range a beam of `to`, from `ranges`, one a beam of `from`. Where several fall on one, the nearest hit
 /// counts; where none does, the one beside it within the scan's own step, else nothing is known (NaN).
 void resample(const BeamAngles& from, std::span<const float> ranges, const BeamAngles& to, std::span<float> out);
 
-/// Gives every scan the number of beams that the median scan has, in its directions; a remark tells which numbers there
-/// were.
+/// Gives every scan the number of beams of the median scan, in its directions, and remarks on it: drivers of spinning
+/// lasers publish a different number each turn.
 void fit_beams(RecordedLog& log, const std::string& name);
 
 }  // namespace jaywalk::sim

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cmath>
 
 #include "apps/formats/logs/log_checks.h"
 #include "apps/formats/logs/recorded_log.h"
@@ -12,8 +13,6 @@ namespace {
 /// Words before the ranges in the two forms; the last of them is the number of beams.
 constexpr std::size_t kPlainHead = 6, kMotionHead = 7;
 
-enum class Form { kNone, kPlain, kMotion };
-
 /// True when the last word of the head is how many words follow it. That can be so in one place only: it tells the two
 /// forms apart.
 bool counts_beams(const LineFile& file, std::size_t head) {
@@ -21,12 +20,13 @@ bool counts_beams(const LineFile& file, std::size_t head) {
   return file.words()[head - 1] == std::to_string(file.words().size() - head);
 }
 
-Form form_of(const LineFile& file) {
-  if (counts_beams(file, kPlainHead)) return Form::kPlain;
-  return counts_beams(file, kMotionHead) ? Form::kMotion : Form::kNone;
+/// Length of the line's head; 0 where it is of neither form.
+std::size_t head_of(const LineFile& file) {
+  if (counts_beams(file, kPlainHead)) return kPlainHead;
+  return counts_beams(file, kMotionHead) ? kMotionHead : 0;
 }
 
-void read_plain(LogScans& scans, const LineFile& file) {
+void read_plain(RecordedLog& log, const LineFile& file) {
   RecordedScan scan;
   scan.stamp = time_from_seconds(file.seconds(0));
   scan.first_angle_rad = static_cast<float>(file.number(1));
@@ -34,97 +34,105 @@ void read_plain(LogScans& scans, const LineFile& file) {
   scan.range_min_m = static_cast<float>(file.number(3));
   scan.range_max_m = static_cast<float>(file.number(4));
   scan.beams = static_cast<std::uint32_t>(file.words().size() - kPlainHead);
-  add_scan(scans, file, scan, kPlainHead, kNoLimit);
+  add_scan(log, file, scan, kPlainHead, kNoLimit);
 }
 
-/// Reads the lines that tell how the robot moved since the line before.
+/// Lines that tell how the robot moved since the line before.
+///
+/// Some recordings were stamped by a program that went through them later: a dozen scans share a stamp while the robot
+/// drives two metres, and times between them tell how long that program took. Where that is so in five lines, and one
+/// of a hundred, no time in the file is of use: the lines are taken as evenly spaced from the first stamp to the last.
 class MotionLines {
  public:
-  /// By the lines' own times, or evenly where `wrong` is given: what a reading by their own times has found.
-  explicit MotionLines(RecordedLog& log, const LineClock* wrong = nullptr) : log_(log), wrong_(wrong) {}
+  explicit MotionLines(RecordedLog& log) : log_(log) {}
 
-  void read(LogScans& scans, const LineFile& file) {
+  void read(const LineFile& file) {
     const Time said = time_from_seconds(file.seconds(0));
     const Pose2 moved = lines_ == 0 ? Pose2{} : pose_at(file, 1);  // the first's led to where this begins
     const std::optional<Pose2> led_to = sound_pose(odometry_ * moved);
     if (!led_to) return log_.refuse(file.place(), kNoPose);
     odometry_ = *led_to;
-    RecordedScan scan = scan_of(file);
-    scan.stamp = wrong_ == nullptr ? said : wrong_->even(lines_);
-    clock_.see(said, moved);
-    ++lines_;
-    if (!add_scan(scans, file, scan, kMotionHead, file.number(5))) return;
-    log_.odometry.push_back({scan.stamp, odometry_, std::nullopt});
-    if (wrong_ != nullptr) log_.own_stamps.push_back(said);
+    see(said, moved);
+    if (!add_scan(log_, file, scan_of(file, said), kMotionHead, file.number(5))) return;
+    log_.odometry.push_back({said, odometry_});
+    numbers_.push_back(lines_ - 1);
   }
-  /// What goes with the scans that stay.
-  void keep_those(const std::vector<bool>& stays) {
-    if (!any()) return;
-    keep(log_.odometry, stays);
-    if (wrong_ != nullptr) keep(log_.own_stamps, stays);
+  /// Replaces stamps that cannot be the laser's; own_stamps keeps them.
+  void even_out(const std::string& file) {
+    if (stood_ < kFewest || stood_ * kOneLineIn <= lines_) return;
+    for (std::size_t k = 0; k < log_.scans.size(); ++k) {
+      log_.own_stamps.push_back(log_.scans[k].stamp);
+      log_.scans[k].stamp = log_.odometry[k].stamp = even(numbers_[k]);
+    }
+    log_.add_remark(file + ": the robot drives in " + std::to_string(stood_) +
+                    " lines though their time stands still: these are not the laser's times; its scans are taken to be "
+                    "evenly spaced over the whole");
   }
-
-  [[nodiscard]] const LineClock& clock() const { return clock_; }
   [[nodiscard]] bool any() const { return lines_ > 0; }
 
  private:
-  static RecordedScan scan_of(const LineFile& file) {
+  static constexpr std::size_t kFewest = 5, kOneLineIn = 100;
+  static constexpr double kDrivesM = 0.02, kDrivesRad = 0.02;  // more than a standing robot's wheels make up
+  // No laser turns faster than the one; recorded ones turn ten times a second more often than not.
+  static constexpr Duration kShortestStep = std::chrono::milliseconds(1), kOtherwise = std::chrono::milliseconds(100);
+
+  void see(Time said, const Pose2& moved) noexcept {
+    const bool drives = norm(moved.position()) > kDrivesM || std::fabs(moved.heading) > kDrivesRad;
+    if (lines_++ == 0)
+      first_ = last_ = said;
+    else if (said <= last_ && drives)
+      ++stood_;
+    last_ = std::max(last_, said);
+  }
+  /// Evenly spaced time of line `k`, from the first stamp to the last; at 10 Hz where both are the same.
+  [[nodiscard]] Time even(std::size_t k) const {
+    const auto steps = static_cast<Duration::rep>(std::max<std::size_t>(lines_, 2) - 1);
+    const auto at = static_cast<Duration::rep>(k);
+    const Duration step = (last_ - first_) / steps;
+    return first_ + (step >= kShortestStep ? step : kOtherwise) * at;
+  }
+  static RecordedScan scan_of(const LineFile& file, Time stamp) {
     RecordedScan scan;
+    scan.stamp = stamp;
     scan.beams = static_cast<std::uint32_t>(file.words().size() - kMotionHead);
-    const BeamFan fan = carmen_fan(scan.beams, file.number(4));
-    scan.first_angle_rad = fan.first_angle_rad;
-    scan.angle_step_rad = fan.angle_step_rad;
+    const BeamAngles fan = carmen_fan(scan.beams, file.number(4));
+    scan.first_angle_rad = static_cast<float>(fan.first_rad);
+    scan.angle_step_rad = static_cast<float>(fan.step_rad);
     scan.range_max_m = static_cast<float>(file.number(5));
     return scan;
   }
 
   RecordedLog& log_;
-  const LineClock* wrong_;
-  LineClock clock_;
   Pose2 odometry_;
-  std::size_t lines_ = 0;
+  std::size_t lines_ = 0, stood_ = 0;  ///< stood: the robot drove though time stood still
+  std::vector<std::size_t> numbers_;   ///< of the scans' lines
+  Time first_ = kNever, last_ = kNever;
 };
 
 /// True when the scans carried their own odometry.
-bool read_scans(RecordedLog& log, const std::filesystem::path& path, MotionLines& motion) {
+bool read_scans(RecordedLog& log, const std::filesystem::path& path) {
   LineFile file(path);
-  LogScans scans(log);
-  Form form = Form::kNone;
+  MotionLines motion(log);
+  std::size_t head = 0;
   while (file.next()) {
-    if (form == Form::kNone) form = form_of(file);
-    if (form == Form::kNone || !counts_beams(file, form == Form::kPlain ? kPlainHead : kMotionHead))
+    if (head == 0) head = head_of(file);
+    if (head == 0 || !counts_beams(file, head))
       log.refuse(file.place(), kWrongLength);
-    else if (form == Form::kPlain)
-      read_plain(scans, file);
+    else if (head == kPlainHead)
+      read_plain(log, file);
     else
-      motion.read(scans, file);
+      motion.read(file);
   }
-  motion.keep_those(scans.settle_times(file.place()));
+  motion.even_out(file.name());
+  const std::vector<bool> stays = settle_times(log, file.place());
+  keep(log.odometry, stays);
+  keep(log.own_stamps, stays);
   require_scans(log, file.name(), "lines 't angle_min angle_inc range_min range_max n r1..rn'");
   return motion.any();
 }
 
-/// The scans of `path` by their own times, or evenly where those cannot be the laser's.
-bool read_scans(RecordedLog& log, const std::filesystem::path& path) {
-  MotionLines motion(log);
-  if (!read_scans(log, path, motion)) return false;
-  if (!motion.clock().wrong()) return true;
-  const LineClock wrong = motion.clock();
-  const Pose2 mount = log.robot_from_laser;
-  log = RecordedLog();
-  log.robot_from_laser = mount;
-  MotionLines evenly(log, &wrong);
-  (void)read_scans(log, path, evenly);
-  log.add_remark(path.string() + ": the robot drives in " + std::to_string(wrong.stood()) +
-                 " lines though their time stands still: these are not the laser's times; its scans are taken to be "
-                 "evenly spaced over the whole");
-  return true;
-}
-
-/// Which words of a line of odometry are time, x, y, heading, v and w.
-struct OdometryColumns {
-  std::vector<std::size_t> at{0, 1, 2, 3};  ///< four of them where it has no speeds
-};
+/// Words of a line of odometry that are time, x, y, heading and, where there are speeds, v and w.
+using OdometryColumns = std::vector<std::size_t>;
 
 constexpr std::array<std::array<std::string_view, 5>, 4> kColumnNames{
     {{"t_s", "t", "time", "timestamp", "stamp"},
@@ -147,7 +155,7 @@ OdometryColumns named_columns(RecordedLog& log, const LineFile& file) {
                                            : "position") +
                       " in it",
                   "name columns t,x,y,theta");
-    columns.at[k] = static_cast<std::size_t>(std::ranges::find(file.words(), *name) - file.words().begin());
+    columns.push_back(static_cast<std::size_t>(std::ranges::find(file.words(), *name) - file.words().begin()));
     told += (told.empty() ? "" : ", ") + std::string(*name);
   }
   log.add_remark(file.name() + ": of its columns " + told + " are taken");
@@ -156,10 +164,8 @@ OdometryColumns named_columns(RecordedLog& log, const LineFile& file) {
 
 /// Without names: t x y yaw, and v w where the lines have six words.
 OdometryColumns counted_columns(RecordedLog& log, const LineFile& file) {
-  OdometryColumns columns;
-  if (file.words().size() == 6) columns.at = {0, 1, 2, 3, 4, 5};
   if (file.has_commas()) log.add_remark(file.name() + ": its columns are taken as time, x, y, heading");
-  return columns;
+  return file.words().size() == 6 ? OdometryColumns{0, 1, 2, 3, 4, 5} : OdometryColumns{0, 1, 2, 3};
 }
 
 /// True where the first line names columns: one is a time, or a CSV file's line begins with a letter.
@@ -175,28 +181,25 @@ bool names_columns(const LineFile& file) {
 void read_odometry(RecordedLog& log, const std::filesystem::path& path) {
   LineFile file(path);
   LogOdometry odometry(log);
-  std::optional<OdometryColumns> columns;
+  OdometryColumns columns;
   std::size_t words = 0;
   while (file.next()) {
-    if (!columns) {
-      const bool is_named = names_columns(file);
+    if (columns.empty()) {
       words = file.words().size();
-      if (!is_named && words != 4 && words != 6) {
-        log.refuse(file.place(), kWrongLength);
+      if (names_columns(file)) {
+        columns = named_columns(log, file);
         continue;
       }
-      columns = is_named ? named_columns(log, file) : counted_columns(log, file);
-      if (is_named) continue;
+      if (words == 4 || words == 6) columns = counted_columns(log, file);
     }
-    if (file.words().size() != words) {
+    if (columns.empty() || file.words().size() != words) {
       log.refuse(file.place(), kWrongLength);
       continue;
     }
-    const auto number = [&](std::size_t k) { return file.number(columns->at[k]); };
+    const auto number = [&](std::size_t k) { return file.number(columns[k]); };
     std::optional<Twist2> twist;
-    if (columns->at.size() == 6) twist = Twist2{number(4), number(5)};
-    odometry.add({time_from_seconds(file.seconds(columns->at[0])), {number(1), number(2), number(3)}, twist},
-                 file.place());
+    if (columns.size() == 6) twist = Twist2{number(4), number(5)};
+    odometry.add({time_from_seconds(file.seconds(columns[0])), {number(1), number(2), number(3)}, twist}, file.place());
   }
   odometry.settle(file.place());
   if (log.odometry.empty()) throw StartupError(file.name() + ": no odometry in it", "give lines 't x y yaw v w'");

@@ -1,6 +1,5 @@
 #include "apps/report/picture/canvas.h"
 
-#include <cairo.h>
 #include <dlfcn.h>
 
 #include <cmath>
@@ -33,12 +32,9 @@ Function cairo_function(const char* name) {
     return found;                                                                        \
   }())
 
-struct Release {
-  void operator()(cairo_surface_t* surface) const { JAYWALK_CAIRO(surface_destroy)(surface); }
-  void operator()(cairo_t* context) const { JAYWALK_CAIRO(destroy)(context); }
-  void operator()(cairo_font_options_t* options) const { JAYWALK_CAIRO(font_options_destroy)(options); }
-};
-using Surface = std::unique_ptr<cairo_surface_t, Release>;
+std::shared_ptr<cairo_surface_t> new_surface(cairo_format_t format, int width, int height) {
+  return {JAYWALK_CAIRO(image_surface_create)(format, width, height), JAYWALK_CAIRO(surface_destroy)};
+}
 
 /// Cairo's own pixel: alpha, red, green, blue in 8 bits each, colours multiplied by alpha.
 std::uint32_t argb(const Colour& c) {
@@ -47,8 +43,8 @@ std::uint32_t argb(const Colour& c) {
          eight_bits(c.blue * c.opacity);
 }
 
-Surface surface_of(const std::vector<Colour>& pixels, int width, int height) {
-  Surface surface(JAYWALK_CAIRO(image_surface_create)(CAIRO_FORMAT_ARGB32, width, height));
+std::shared_ptr<cairo_surface_t> surface_of(const std::vector<Colour>& pixels, int width, int height) {
+  std::shared_ptr<cairo_surface_t> surface = new_surface(CAIRO_FORMAT_ARGB32, width, height);
   if (JAYWALK_CAIRO(surface_status)(surface.get()) != CAIRO_STATUS_SUCCESS) throw std::bad_alloc();
   unsigned char* row = JAYWALK_CAIRO(image_surface_get_data)(surface.get());
   auto pixel = pixels.begin();
@@ -60,6 +56,30 @@ Surface surface_of(const std::vector<Colour>& pixels, int width, int height) {
   return surface;
 }
 
+void trace(cairo_t* to, const Polyline& line) {
+  JAYWALK_CAIRO(new_path)(to);
+  for (const Vec2 p : line) JAYWALK_CAIRO(line_to)(to, p.x, p.y);
+}
+
+void trace_circle(cairo_t* to, Vec2 centre, double radius) {
+  JAYWALK_CAIRO(new_path)(to);
+  JAYWALK_CAIRO(arc)(to, centre.x, centre.y, radius, 0.0, 2.0 * kPi);
+}
+
+void use(cairo_t* to, const Colour& c) { JAYWALK_CAIRO(set_source_rgba)(to, c.red, c.green, c.blue, c.opacity); }
+
+void fill_path(cairo_t* to, const Colour& colour) {
+  use(to, colour);
+  JAYWALK_CAIRO(fill)(to);
+}
+
+void stroke_path(cairo_t* to, const Pen& pen) {
+  use(to, pen.colour);
+  JAYWALK_CAIRO(set_line_width)(to, pen.width);
+  JAYWALK_CAIRO(set_dash)(to, &pen.dash, pen.dash > 0.0 ? 1 : 0, 0.0);
+  JAYWALK_CAIRO(stroke)(to);
+}
+
 }  // namespace
 
 void* load_cairo(const char* name) {
@@ -67,108 +87,77 @@ void* load_cairo(const char* name) {
   return library != nullptr && ::dlsym(library, "cairo_create") != nullptr ? library : nullptr;
 }
 
-struct Canvas::Cairo {
-  Surface surface;
-  std::unique_ptr<cairo_t, Release> owned;
-  cairo_t* to;  ///< what is drawn to
-
-  Cairo(int width, int height)
-      : surface(JAYWALK_CAIRO(image_surface_create)(CAIRO_FORMAT_RGB24, width, height)),
-        owned(JAYWALK_CAIRO(create)(surface.get())),
-        to(owned.get()) {
-    if (JAYWALK_CAIRO(status)(to) != CAIRO_STATUS_SUCCESS) throw std::bad_alloc();
-  }
-  void trace(const Polyline& line) const {
-    JAYWALK_CAIRO(new_path)(to);
-    for (const Vec2 p : line) JAYWALK_CAIRO(line_to)(to, p.x, p.y);
-  }
-  void trace_circle(Vec2 centre, double radius) const {
-    JAYWALK_CAIRO(new_path)(to);
-    JAYWALK_CAIRO(arc)(to, centre.x, centre.y, radius, 0.0, 2.0 * kPi);
-  }
-  void use(const Colour& c) const { JAYWALK_CAIRO(set_source_rgba)(to, c.red, c.green, c.blue, c.opacity); }
-  void use(const Pen& pen) const {
-    use(pen.colour);
-    JAYWALK_CAIRO(set_line_width)(to, pen.width);
-    JAYWALK_CAIRO(set_dash)(to, &pen.dash, pen.dash > 0.0 ? 1 : 0, 0.0);
-  }
-  void use(const Lettering& lettering) const {
-    const auto weight = lettering.bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL;
-    JAYWALK_CAIRO(select_font_face)(to, "DejaVu Sans", CAIRO_FONT_SLANT_NORMAL, weight);
-    JAYWALK_CAIRO(set_font_size)(to, lettering.size);
-    use(lettering.colour);
-  }
-};
-
-Canvas::Canvas(int width, int height) : cairo_(std::make_unique<Cairo>(width, height)) {
-  cairo_->use(colour(0xFFFFFF));
-  JAYWALK_CAIRO(paint)(cairo_->to);
-  JAYWALK_CAIRO(set_line_join)(cairo_->to, CAIRO_LINE_JOIN_ROUND);
-  const std::unique_ptr<cairo_font_options_t, Release> options(JAYWALK_CAIRO(font_options_create)());
-  JAYWALK_CAIRO(font_options_set_antialias)(options.get(), CAIRO_ANTIALIAS_GRAY);
-  JAYWALK_CAIRO(font_options_set_hint_style)
-  (options.get(), CAIRO_HINT_STYLE_NONE);  // the same on every screen and printer
-  JAYWALK_CAIRO(font_options_set_hint_metrics)(options.get(), CAIRO_HINT_METRICS_OFF);
-  JAYWALK_CAIRO(set_font_options)(cairo_->to, options.get());
+Canvas::Canvas(int width, int height)
+    : surface_(new_surface(CAIRO_FORMAT_RGB24, width, height)),
+      cairo_(JAYWALK_CAIRO(create)(surface_.get()), JAYWALK_CAIRO(destroy)),
+      to_(cairo_.get()) {
+  if (JAYWALK_CAIRO(status)(to_) != CAIRO_STATUS_SUCCESS) throw std::bad_alloc();
+  use(to_, colour(0xFFFFFF));
+  JAYWALK_CAIRO(paint)(to_);
+  JAYWALK_CAIRO(set_line_join)(to_, CAIRO_LINE_JOIN_ROUND);
+  cairo_font_options_t* const options = JAYWALK_CAIRO(font_options_create)();
+  JAYWALK_CAIRO(font_options_set_antialias)(options, CAIRO_ANTIALIAS_GRAY);
+  JAYWALK_CAIRO(font_options_set_hint_style)(options, CAIRO_HINT_STYLE_NONE);  // the same on every screen and printer
+  JAYWALK_CAIRO(font_options_set_hint_metrics)(options, CAIRO_HINT_METRICS_OFF);
+  JAYWALK_CAIRO(set_font_options)(to_, options);
+  JAYWALK_CAIRO(font_options_destroy)(options);
 }
 
-Canvas::~Canvas() = default;
-
 void Canvas::fill(const Polyline& outline, const Colour& colour) {
-  cairo_->trace(outline);
-  cairo_->use(colour);
-  JAYWALK_CAIRO(fill)(cairo_->to);
+  trace(to_, outline);
+  fill_path(to_, colour);
 }
 
 void Canvas::stroke(const Polyline& line, const Pen& pen, bool closed) {
-  cairo_->trace(line);
-  if (closed) JAYWALK_CAIRO(close_path)(cairo_->to);
-  cairo_->use(pen);
-  JAYWALK_CAIRO(stroke)(cairo_->to);
+  trace(to_, line);
+  if (closed) JAYWALK_CAIRO(close_path)(to_);
+  stroke_path(to_, pen);
 }
 
 void Canvas::fill_disc(Vec2 centre, double radius, const Colour& colour) {
-  cairo_->trace_circle(centre, radius);
-  cairo_->use(colour);
-  JAYWALK_CAIRO(fill)(cairo_->to);
+  trace_circle(to_, centre, radius);
+  fill_path(to_, colour);
 }
 
-void Canvas::stroke_circle(Vec2 centre, double radius, const Pen& pen) {
-  cairo_->trace_circle(centre, radius);
-  cairo_->use(pen);
-  JAYWALK_CAIRO(stroke)(cairo_->to);
+void Canvas::draw_disc(Vec2 centre, double radius, const Colour& colour, const Pen& rim) {
+  fill_disc(centre, radius, colour);
+  trace_circle(to_, centre, radius);
+  stroke_path(to_, rim);
 }
 
 void Canvas::write(Vec2 at, const std::string& text, const Lettering& lettering) {
-  cairo_->use(lettering);
+  const auto weight = lettering.bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL;
+  JAYWALK_CAIRO(select_font_face)(to_, "DejaVu Sans", CAIRO_FONT_SLANT_NORMAL, weight);
+  JAYWALK_CAIRO(set_font_size)(to_, lettering.size);
+  use(to_, lettering.colour);
   cairo_text_extents_t extents;
-  JAYWALK_CAIRO(text_extents)(cairo_->to, text.c_str(), &extents);
+  JAYWALK_CAIRO(text_extents)(to_, text.c_str(), &extents);
   const double share = lettering.align == Align::kLeft ? 0.0 : lettering.align == Align::kRight ? 1.0 : 0.5;
-  JAYWALK_CAIRO(move_to)(cairo_->to, at.x - share * extents.x_advance, at.y);
-  JAYWALK_CAIRO(show_text)(cairo_->to, text.c_str());
+  JAYWALK_CAIRO(move_to)(to_, at.x - share * extents.x_advance, at.y);
+  JAYWALK_CAIRO(show_text)(to_, text.c_str());
 }
 
 void Canvas::image(const std::vector<Colour>& pixels, int width, int height, Vec2 upper_left, Vec2 size) {
-  const Surface picture = surface_of(pixels, width, height);
-  JAYWALK_CAIRO(save)(cairo_->to);
-  JAYWALK_CAIRO(translate)(cairo_->to, upper_left.x, upper_left.y);
-  JAYWALK_CAIRO(scale)(cairo_->to, size.x / width, size.y / height);
-  JAYWALK_CAIRO(set_source_surface)(cairo_->to, picture.get(), 0.0, 0.0);
-  JAYWALK_CAIRO(pattern_set_filter)(JAYWALK_CAIRO(get_source)(cairo_->to), CAIRO_FILTER_BILINEAR);
-  JAYWALK_CAIRO(paint)(cairo_->to);
-  JAYWALK_CAIRO(restore)(cairo_->to);
+  const std::shared_ptr<cairo_surface_t> picture = surface_of(pixels, width, height);
+  JAYWALK_CAIRO(save)(to_);
+  JAYWALK_CAIRO(translate)(to_, upper_left.x, upper_left.y);
+  JAYWALK_CAIRO(scale)(to_, size.x / width, size.y / height);
+  JAYWALK_CAIRO(set_source_surface)(to_, picture.get(), 0.0, 0.0);
+  JAYWALK_CAIRO(pattern_set_filter)(JAYWALK_CAIRO(get_source)(to_), CAIRO_FILTER_BILINEAR);
+  JAYWALK_CAIRO(paint)(to_);
+  JAYWALK_CAIRO(restore)(to_);
 }
 
 void Canvas::clip(Vec2 upper_left, Vec2 size) {
-  JAYWALK_CAIRO(save)(cairo_->to);
-  JAYWALK_CAIRO(rectangle)(cairo_->to, upper_left.x, upper_left.y, size.x, size.y);
-  JAYWALK_CAIRO(clip)(cairo_->to);
+  JAYWALK_CAIRO(save)(to_);
+  JAYWALK_CAIRO(rectangle)(to_, upper_left.x, upper_left.y, size.x, size.y);
+  JAYWALK_CAIRO(clip)(to_);
 }
 
-void Canvas::unclip() { JAYWALK_CAIRO(restore)(cairo_->to); }
+void Canvas::unclip() { JAYWALK_CAIRO(restore)(to_); }
 
 void Canvas::save_png(const std::string& file) const {
-  const cairo_status_t status = JAYWALK_CAIRO(surface_write_to_png)(cairo_->surface.get(), file.c_str());
+  const cairo_status_t status = JAYWALK_CAIRO(surface_write_to_png)(surface_.get(), file.c_str());
   if (status != CAIRO_STATUS_SUCCESS) {
     std::remove(file.c_str());  // half a picture is none
     throw StartupError(file + ": " + JAYWALK_CAIRO(status_to_string)(status),

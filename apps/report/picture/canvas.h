@@ -1,5 +1,7 @@
 #pragma once
 // A sheet to draw on, in pixels from its upper left corner, x to the right and y down.
+#include <cairo.h>
+
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -46,12 +48,12 @@ class Canvas {
  public:
   /// A white sheet. Throws std::bad_alloc.
   Canvas(int width, int height);
-  ~Canvas();
 
   void fill(const Polyline& outline, const Colour& colour);
   void stroke(const Polyline& line, const Pen& pen, bool closed = false);
   void fill_disc(Vec2 centre, double radius, const Colour& colour);
-  void stroke_circle(Vec2 centre, double radius, const Pen& pen);
+  /// Fills it and draws its rim.
+  void draw_disc(Vec2 centre, double radius, const Colour& colour, const Pen& rim);
   /// `at` is the baseline's left end, middle or right end.
   void write(Vec2 at, const std::string& text, const Lettering& lettering);
   /// Draws pixels (opaque or not, row by row from the top) stretched over a rectangle.
@@ -64,8 +66,9 @@ class Canvas {
   void save_png(const std::string& file) const;
 
  private:
-  struct Cairo;
-  std::unique_ptr<Cairo> cairo_;
+  std::shared_ptr<cairo_surface_t> surface_;
+  std::shared_ptr<cairo_t> cairo_;
+  cairo_t* to_;  ///< draws on the surface
 };
 
 }  // namespace jaywalk

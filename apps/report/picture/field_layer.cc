@@ -9,6 +9,7 @@ namespace {
 /// From the goal outwards: light and warm to darker and cool, calm enough to draw upon.
 constexpr std::array<Colour, 4> kRamp{colour(0xFFFBE8), colour(0xE4F0DC), colour(0xC3DCE6), colour(0xA9B6D8)};
 constexpr Colour kContourColour = colour(0x5C7A99);
+constexpr int kContours = 24;
 
 Colour ramp(float rank) {
   if (std::isnan(rank)) return {1.0, 1.0, 1.0, 0.0};
@@ -21,34 +22,22 @@ Colour ramp(float rank) {
   return {mix(a.red, b.red), mix(a.green, b.green), mix(a.blue, b.blue), 1.0};
 }
 
-/// A square between four cell centres: its corners' values, counter-clockwise from the lower left.
+/// A square between four cell centres: its corners and their values, counter-clockwise from the lower left.
 struct Square {
-  double column = 0.0, row = 0.0;
-  std::array<float, 4> value{};
-
-  [[nodiscard]] Vec2 corner(std::size_t k) const {
-    return {column + (k == 1 || k == 2 ? 1.0 : 0.0), row + (k >= 2 ? 1.0 : 0.0)};
-  }
-  /// Where the level crosses the side from corner k to the next.
-  [[nodiscard]] Vec2 crossing(std::size_t k, float level) const {
-    const std::size_t next = (k + 1) % 4;
-    const double part = static_cast<double>((level - value[k]) / (value[next] - value[k]));
-    return corner(k) + (corner(next) - corner(k)) * part;
-  }
+  std::array<Vec2, 4> corner;
+  std::array<float, 4> value;
 };
 
 /// Appends the pieces of one square: where the level crosses its sides, taken in pairs.
 void add_pieces(Polyline& pieces, const Square& square, float level) {
-  for (const float v : square.value) {
-    if (std::isnan(v)) return;
-  }
-  std::array<Vec2, 4> crossings;
-  std::size_t found = 0;
+  if (std::ranges::any_of(square.value, [](float v) { return std::isnan(v); })) return;
   for (std::size_t k = 0; k < 4; ++k) {
-    if ((square.value[k] < level) != (square.value[(k + 1) % 4] < level))
-      crossings[found++] = square.crossing(k, level);
+    const std::size_t next = (k + 1) % 4;
+    const float here = square.value[k], there = square.value[next];
+    if ((here < level) == (there < level)) continue;
+    const double part = static_cast<double>((level - here) / (there - here));
+    pieces.push_back(square.corner[k] + (square.corner[next] - square.corner[k]) * part);
   }
-  pieces.insert(pieces.end(), crossings.begin(), crossings.begin() + static_cast<std::ptrdiff_t>(found));
 }
 
 void draw_wash(Canvas& canvas, const MapFrame& to_sheet, const FieldRaster& field, const std::vector<float>& rank) {
@@ -103,9 +92,11 @@ Polyline contour(const std::vector<float>& values, std::int32_t width, std::int3
   };
   for (std::int32_t j = 0; j + 1 < height; ++j) {
     for (std::int32_t i = 0; i + 1 < width; ++i) {
-      const Square square{
-          static_cast<double>(i), static_cast<double>(j), {at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)}};
-      add_pieces(pieces, square, level);
+      const double x = i, y = j;
+      add_pieces(pieces,
+                 {{{{x, y}, {x + 1.0, y}, {x + 1.0, y + 1.0}, {x, y + 1.0}}},
+                  {at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)}},
+                 level);
     }
   }
   return pieces;

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <functional>
 
+#include "apps/report/markup.h"
 #include "apps/report/picture/canvas.h"
 #include "apps/report/picture/run_layers.h"
 #include "apps/report/picture/scene.h"
@@ -11,30 +12,44 @@ namespace jaywalk {
 namespace {
 constexpr double kFactSize = 20.0, kFactLine = 30.0, kLegendLine = 36.0, kSwatch = 52.0;
 
-/// The round length (1, 2 or 5 times a power of ten) next above `at_least`.
-double round_length(double at_least) {
-  double decade = 0.001;
-  while (decade * 10.0 <= at_least) decade *= 10.0;
-  for (const double times : {1.0, 2.0, 5.0}) {
-    if (decade * times >= at_least) return decade * times;
-  }
-  return decade * 10.0;
-}
-
 std::string metres(double value) {
   const double rounded = std::floor(value * 10.0 + 0.5) / 10.0;
   const std::string text = std::to_string(rounded);
   return std::floor(rounded) == rounded ? text.substr(0, text.find('.')) : text.substr(0, text.find('.') + 2);
 }
 
-/// A row of the legend: how its sample is drawn (about a middle point), and what it says.
+/// Draws the sample of a legend's row about a middle point.
+using Sample = std::function<void(Vec2)>;
+
 struct LegendRow {
-  std::function<void(Vec2)> sample;
+  Sample sample;
   std::string text;
 };
 
-void line_sample(Canvas& canvas, Vec2 at, const Pen& pen) {
-  canvas.stroke({at - Vec2{kSwatch / 2.0, 0.0}, at + Vec2{kSwatch / 2.0, 0.0}}, pen);
+Sample line_sample(Canvas& canvas, const Pen& pen) {
+  return [&canvas, pen](Vec2 at) {
+    canvas.stroke({at - Vec2{kSwatch / 2.0, 0.0}, at + Vec2{kSwatch / 2.0, 0.0}}, pen);
+  };
+}
+
+Sample disc_sample(Canvas& canvas, double radius, const Colour& colour, const Pen& rim) {
+  return [&canvas, radius, colour, rim](Vec2 at) { canvas.draw_disc(at, radius, colour, rim); };
+}
+
+/// A mover's or a track's trail, which ends in a disc.
+Sample trail_sample(Canvas& canvas, double radius) {
+  return [&canvas, radius](Vec2 at) {
+    line_sample(canvas, {colour_of(0).faded(0.7), 2.6})(at);
+    canvas.fill_disc(at + Vec2{kSwatch / 2.0 - radius, 0.0}, radius, colour_of(0));
+  };
+}
+
+Sample white_sample(Canvas& canvas) {
+  const Vec2 half{kSwatch / 2.0, 9.0};
+  return [&canvas, half](Vec2 at) {
+    canvas.stroke({at - half, at + Vec2{half.x, -half.y}, at + half, at + Vec2{-half.x, half.y}}, {ink::kFaint, 1.2},
+                  true);
+  };
 }
 
 std::string moment_time(const PictureScene& scene) {
@@ -43,84 +58,47 @@ std::string moment_time(const PictureScene& scene) {
 }
 
 void add_map_rows(std::vector<LegendRow>& rows, Canvas& canvas, const PictureScene& scene) {
-  if (!scene.occupied.empty()) {
-    rows.push_back({[&](Vec2 at) { line_sample(canvas, at, {ink::kSeen, 7.0}); }, "walls seen"});
-  }
-  if (!scene.walls.empty()) {
-    rows.push_back({[&](Vec2 at) { line_sample(canvas, at, {ink::kWall, 5.0}); }, "walls"});
-  }
-  const auto add_zones = [&](ZoneKind kind, const char* text) {
-    const auto is_one = [kind](const MapZone& zone) { return zone.kind == kind; };
-    if (std::none_of(scene.zones.begin(), scene.zones.end(), is_one)) return;
-    rows.push_back({[&canvas, kind](Vec2 at) { line_sample(canvas, at, {colour_of(kind), 3.0, 8.0}); }, text});
-  };
-  add_zones(ZoneKind::kKeepOut, "keep-out zone");
-  add_zones(ZoneKind::kSpeed, "speed zone");
-  if (!scene.driven.empty()) {
-    rows.push_back({[&](Vec2 at) { line_sample(canvas, at, {ink::kRobot, 4.0}); }, "driven, with the time"});
-  }
+  if (!scene.occupied.empty()) rows.push_back({line_sample(canvas, {ink::kSeen, 7.0}), "walls seen"});
+  if (!scene.walls.empty()) rows.push_back({line_sample(canvas, {ink::kWall, 5.0}), "walls"});
+  for (const auto& [kind, text] : {std::pair{ZoneKind::kKeepOut, "keep-out zone"}, {ZoneKind::kSpeed, "speed zone"}})
+    if (std::ranges::count(scene.zones, kind, &MapZone::kind) > 0)
+      rows.push_back({line_sample(canvas, {colour_of(kind), 3.0, 8.0}), text});
+  if (!scene.driven.empty()) rows.push_back({line_sample(canvas, {ink::kRobot, 4.0}), "driven, with the time"});
 }
 
 void add_mover_rows(std::vector<LegendRow>& rows, Canvas& canvas, const PictureScene& scene) {
-  const auto line_with_disc = [&canvas](double radius) {
-    return [&canvas, radius](Vec2 at) {
-      line_sample(canvas, at, {colour_of(0).faded(0.7), 2.6});
-      canvas.fill_disc(at + Vec2{kSwatch / 2.0 - radius, 0.0}, radius, colour_of(0));
-    };
-  };
-  if (!scene.movers.empty()) {
-    rows.push_back({line_with_disc(10.0), scene.moment ? "movers at " + moment_time(scene) : "movers at the end"});
-  } else if (std::any_of(scene.tracks.begin(), scene.tracks.end(), went_somewhere)) {
-    rows.push_back({line_with_disc(5.0), "tracked as moving"});
-  }
-  if (std::any_of(scene.movers.begin(), scene.movers.end(), [](const Trail& t) { return t.flagged; })) {
-    rows.push_back({[&](Vec2 at) {
-                      canvas.fill_disc(at, 10.0, colour_of(0));
-                      canvas.stroke_circle(at, 10.0, {ink::kForced, 3.0});
-                    },
-                    "was forced to turn"});
-  }
+  if (!scene.movers.empty())
+    rows.push_back(
+        {trail_sample(canvas, 10.0), scene.moment ? "movers at " + moment_time(scene) : "movers at the end"});
+  else if (std::ranges::any_of(scene.tracks, went_somewhere))
+    rows.push_back({trail_sample(canvas, 5.0), "tracked as moving"});
+  if (std::ranges::any_of(scene.movers, &Trail::flagged))
+    rows.push_back({disc_sample(canvas, 10.0, colour_of(0), {ink::kForced, 3.0}), "was forced to turn"});
 }
 
 void add_moment_rows(std::vector<LegendRow>& rows, Canvas& canvas, const PictureScene& scene) {
   if (!scene.moment) return;
   if (!scene.moment->field.psi.empty()) {
-    const Vec2 half{kSwatch / 2.0, 9.0};
-    const auto white = [&canvas, half](Vec2 at) {
-      canvas.stroke({at - half, at + Vec2{half.x, -half.y}, at + half, at + Vec2{-half.x, half.y}}, {ink::kFaint, 1.2},
-                    true);
-    };
     const bool is_potential = scene.moment->field.of == FieldView::Of::kPotential;  // others end beyond the robot
-    rows.push_back({white, is_potential ? "no room for the robot then" : "no room then, or too far off"});
+    rows.push_back(
+        {white_sample(canvas), is_potential ? "no room for the robot then" : "no room then, or too far off"});
   }
-  if (!scene.moment->band.empty()) {
-    rows.push_back({[&](Vec2 at) {
-                      line_sample(canvas, at, {ink::kBand, 3.2, 10.0});
-                    },
-                    "plan at " + moment_time(scene)});
-  }
-  if (!scene.moment->predictions.empty()) {
-    rows.push_back({[&](Vec2 at) {
-                      canvas.fill_disc(at, 13.0, ink::kBand.faded(0.12));
-                      canvas.stroke_circle(at, 13.0, {ink::kBand, 1.6, 6.0});
-                    },
-                    "expected there by then"});
-  }
+  if (!scene.moment->band.empty())
+    rows.push_back({line_sample(canvas, {ink::kBand, 3.2, 10.0}), "plan at " + moment_time(scene)});
+  if (!scene.moment->predictions.empty())
+    rows.push_back(
+        {disc_sample(canvas, 13.0, ink::kBand.faded(0.12), {ink::kBand, 1.6, 6.0}), "expected there by then"});
 }
 
 void add_decision_rows(std::vector<LegendRow>& rows, Canvas& canvas, const PictureScene& scene) {
   if (!scene.decision) return;
-  const auto line = [&canvas](const Colour& colour, double width) {
-    return [&canvas, colour, width](Vec2 at) { line_sample(canvas, at, {colour, width}); };
-  };
-  rows.push_back({line(ink::kBand, 3.6), "chosen, 6 s"});
+  rows.push_back({line_sample(canvas, {ink::kBand, 3.6}), "chosen, 6 s"});
   for (std::size_t k = 0; k < std::min(scene.decision->ways.size(), kWayColours.size()); ++k) {
     const std::string dearer = formatted("%+.1f s: ", static_cast<double>(scene.decision->ways[k].dearer_s));
-    rows.push_back({line(kWayColours[k], 2.4), dearer + scene.decision->ways[k].name});
+    rows.push_back({line_sample(canvas, {kWayColours[k], 2.4}), dearer + scene.decision->ways[k].name});
   }
-  if (!scene.decision->futures.empty()) {
+  if (!scene.decision->futures.empty())
     rows.push_back({[&](Vec2 at) { canvas.fill_disc(at, 5.0, kFutureColour.faded(0.5)); }, "where bodies may be"});
-  }
 }
 
 double draw_facts(Canvas& canvas, const PictureScene& scene, Vec2 at, double width) {
@@ -222,24 +200,17 @@ Extent filled_out(const Extent& extent) {
 /// When movers are shown: at the moment of the plan, without one at the end.
 Time shown_time(const PictureScene& scene) {
   if (scene.moment) return scene.moment->t;
-  Time end = kNever;
-  for (const DrivenPose& d : scene.driven) end = std::max(end, d.t);
-  for (const Trail& trail : scene.movers) {
-    for (const TrailPoint& p : trail.points) end = std::max(end, p.t);
-  }
+  Time end = scene.driven.empty() ? kNever : scene.driven.back().t;
+  for (const Trail& trail : scene.movers)
+    if (!trail.points.empty()) end = std::max(end, trail.points.back().t);
   return end;
 }
 
 /// Where the field is of interest: inside the walls where these are known, else all that is shown.
 Extent field_extent(const PictureScene& scene, const Extent& shown) {
   if (scene.walls.empty()) return shown;
-  Extent inside{scene.walls.front().from, scene.walls.front().from};
-  for (const sim::WallSegment& wall : scene.walls) {
-    for (const Vec2 p : {wall.from, wall.to}) {
-      inside.low = {std::min(inside.low.x, p.x), std::min(inside.low.y, p.y)};
-      inside.high = {std::max(inside.high.x, p.x), std::max(inside.high.y, p.y)};
-    }
-  }
+  Extent inside;
+  for (const sim::WallSegment& wall : scene.walls) inside.hold(wall.from), inside.hold(wall.to);
   return inside;
 }
 

@@ -16,12 +16,7 @@ constexpr double kBodyM = 0.15;      ///< a body is at least this far across fro
 
 double gap_to_walls(const PictureScene& scene, Vec2 p) {
   double gap = std::numeric_limits<double>::infinity();
-  for (const sim::WallSegment& wall : scene.walls) {
-    const Vec2 along = wall.to - wall.from;
-    const double squared = dot(along, along);
-    const double share = squared > 0.0 ? std::clamp(dot(p - wall.from, along) / squared, 0.0, 1.0) : 0.0;
-    gap = std::min(gap, distance(p, wall.from + along * share));
-  }
+  for (const sim::WallSegment& wall : scene.walls) gap = std::min(gap, distance(p, wall));
   if (!scene.walls.empty()) return gap;  // cells seen occupied may be the mover's own, while it stood
   for (const Vec2 cell : scene.occupied) gap = std::min(gap, distance(p, cell));
   return gap;
@@ -71,10 +66,8 @@ void draw_times(Canvas& canvas, const MapFrame& to_sheet, const std::vector<Driv
     const double since_start_s = to_seconds(d.t - driven.front().t);
     if (since_start_s + 1e-6 < next_s) continue;
     const Vec2 at = to_sheet(d.pose.position());
-    canvas.fill_disc(at, 3.6 * weight_of(to_sheet), colour(0xFFFFFF));
-    canvas.stroke_circle(at, 3.6 * weight_of(to_sheet), {ink::kRobot, 1.6 * weight_of(to_sheet)});
-    const bool crowded = std::any_of(written.begin(), written.end(),
-                                     [&](Vec2 other) { return distance(at, other) < kLabelApartPixels; });
+    canvas.draw_disc(at, 3.6 * weight_of(to_sheet), colour(0xFFFFFF), {ink::kRobot, 1.6 * weight_of(to_sheet)});
+    const bool crowded = std::ranges::any_of(written, [&](Vec2 p) { return distance(at, p) < kLabelApartPixels; });
     if (!crowded) {
       const std::string text = std::to_string(static_cast<int>(next_s)) + " s";
       write_on_map(canvas, at + Vec2{9.0, -9.0}, text, {17.0, ink::kRobot});
@@ -97,9 +90,8 @@ void draw_trail(Canvas& canvas, const MapFrame& to_sheet, const Trail& trail, Ti
 void draw_body(Canvas& canvas, const MapFrame& to_sheet, const Trail& trail, Vec2 at_in_map) {
   const Vec2 at = to_sheet(at_in_map);
   const double radius = to_sheet.pixels(std::max(trail.radius_m, 0.1));
-  canvas.fill_disc(at, radius, colour_of(trail.id).faded(0.85));
-  canvas.stroke_circle(at, radius,
-                       {trail.flagged ? ink::kForced : ink::kText, (trail.flagged ? 3.0 : 1.2) * weight_of(to_sheet)});
+  canvas.draw_disc(at, radius, colour_of(trail.id).faded(0.85),
+                   {trail.flagged ? ink::kForced : ink::kText, (trail.flagged ? 3.0 : 1.2) * weight_of(to_sheet)});
   const double size = std::clamp(radius * 1.1, 9.0, 18.0);
   canvas.write(at + Vec2{0.0, size * 0.36}, std::to_string(trail.id), {size, colour(0xFFFFFF), Align::kCentre, true});
 }
@@ -199,19 +191,16 @@ void draw_moment(Canvas& canvas, const MapFrame& to_sheet, const PictureScene& s
   const PlanMoment& moment = *scene.moment;
   const double weight = weight_of(to_sheet);
   for (const Prediction& p : moment.predictions) {
-    const auto track =
-        std::find_if(moment.tracks.begin(), moment.tracks.end(), [&](const Track& t) { return t.id == p.track_id; });
+    const auto track = std::ranges::find(moment.tracks, p.track_id, &Track::id);
     const bool known = track != moment.tracks.end();
     const Vec2 at =
         to_sheet(known ? end_before_wall(scene, track->position_in_map, p.position_in_map, kBodyM) : p.position_in_map);
-    canvas.fill_disc(at, to_sheet.pixels(p.mark_radius_m), ink::kBand.faded(0.10));
-    canvas.stroke_circle(at, to_sheet.pixels(p.mark_radius_m), {ink::kBand, 1.6 * weight, 6.0});
+    canvas.draw_disc(at, to_sheet.pixels(p.mark_radius_m), ink::kBand.faded(0.10), {ink::kBand, 1.6 * weight, 6.0});
     if (!known) continue;
     canvas.stroke({to_sheet(track->position_in_map), at}, {ink::kBand.faded(0.8), 1.4 * weight, 3.0});
     canvas.fill_disc(to_sheet(track->position_in_map), 4.0 * weight, ink::kBand);
   }
-  const Polyline band = on_sheet(moment.band, to_sheet);
-  canvas.stroke(band, {ink::kBand.faded(0.85), 3.2 * weight, 10.0});
+  canvas.stroke(on_sheet(moment.band, to_sheet), {ink::kBand.faded(0.85), 3.2 * weight, 10.0});
   const Polyline corners = outline(moment.map_from_robot, scene.footprint, to_sheet);
   canvas.fill(corners, ink::kBand.faded(0.35));
   canvas.stroke(corners, {ink::kBand, 2.2 * weight}, true);
@@ -227,8 +216,7 @@ void draw_ends(Canvas& canvas, const MapFrame& to_sheet, const PictureScene& sce
   if (scene.goal) {
     const Vec2 at = to_sheet(*scene.goal);
     const double radius = std::max(to_sheet.pixels(scene.goal_tolerance_m), 6.0);
-    canvas.fill_disc(at, radius, ink::kGoal.faded(0.25));
-    canvas.stroke_circle(at, radius, {ink::kGoal, 3.0 * weight});
+    canvas.draw_disc(at, radius, ink::kGoal.faded(0.25), {ink::kGoal, 3.0 * weight});
     canvas.fill_disc(at, 4.0 * weight, ink::kGoal);
     if (scene.goal_heading_rad) {
       const Vec2 ahead = to_sheet(*scene.goal + direction(*scene.goal_heading_rad)) - at;

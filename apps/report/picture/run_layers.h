@@ -52,8 +52,6 @@ void draw_ends(Canvas& canvas, const MapFrame& to_sheet, const PictureScene& sce
 
 // Layers that show the planner: its field, and a decision.
 
-inline constexpr int kContours = 24;
-
 /// Each cell's psi as the share of all finite cells that lie lower, in [0, 1): equal steps of it hold
 /// equal areas, so that structure shows near the goal and far from it. NaN where psi is not finite.
 [[nodiscard]] std::vector<float> ranks(const std::vector<float>& psi);

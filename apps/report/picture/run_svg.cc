@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <set>
 
 #include "apps/report/markup.h"
@@ -28,37 +29,30 @@ std::string whole(double value) { return std::to_string(std::lround(value)); }
 std::string pair(Vec2 p) { return whole(p.x) + " " + whole(p.y); }
 
 /// `text` as XML's characters: '?' for each byte outside printable ASCII.
-std::string escaped(std::string_view text) {
-  std::string out;
-  for (const char c : text) out += c < ' ' || c > '~' ? "?" : as_markup(c);
-  return out;
+std::string escaped(std::string text) {
+  std::ranges::replace_if(
+      text, [](char c) { return c < ' ' || c > '~'; }, '?');
+  return as_markup(text);
 }
 
 /// "#rrggbb"; opacity is left out.
 std::string hex(const Colour& colour) {
-  constexpr std::string_view kDigits = "0123456789abcdef";
-  std::string out = "#";
-  for (const double part : {colour.red, colour.green, colour.blue}) {
-    const auto byte = static_cast<unsigned>(std::lround(part * 255.0));
-    out += kDigits[byte / 16U];
-    out += kDigits[byte % 16U];
-  }
-  return out;
+  const auto byte = [](double part) { return static_cast<unsigned>(std::lround(part * 255.0)); };
+  return formatted("#%02x%02x%02x", byte(colour.red), byte(colour.green), byte(colour.blue));
 }
 
-/// Values of an animation, separated by ';'.
+/// Words of `values`; those of an animation are separated by ';'.
 template <class Values, class Word>
-std::string joined(const Values& values, const Word& word) {
+std::string joined(const Values& values, const Word& word, const char* between = ";") {
   std::string out;
-  for (const auto& value : values) out += (out.empty() ? "" : ";") + word(value);
+  for (const auto& value : values) out += (out.empty() ? "" : between) + word(value);
   return out;
 }
 
 /// A line through all points.
 std::string path_of(const std::vector<Vec2>& points, const MapFrame& to_sheet) {
-  std::string out;
-  for (const Vec2 p : points) out += (out.empty() ? "M" : " ") + pair(to_sheet(p));
-  return out;
+  return "M" + joined(
+                   points, [&](Vec2 p) { return pair(to_sheet(p)); }, " ");
 }
 
 class Drawing {
@@ -86,14 +80,9 @@ class Drawing {
   /// Movers, else tracks that moved; the longest trails where there are too many.
   [[nodiscard]] std::vector<const Trail*> shown_bodies() const {
     std::vector<const Trail*> all;
-    for (const Trail& mover : scene_.movers) {
-      if (!mover.points.empty()) all.push_back(&mover);
-    }
-    for (const Trail& track : scene_.tracks) {
-      if (scene_.movers.empty() && went_somewhere(track)) all.push_back(&track);
-    }
-    std::stable_sort(all.begin(), all.end(),
-                     [](const Trail* a, const Trail* b) { return a->points.size() > b->points.size(); });
+    for (const Trail& trail : scene_.movers.empty() ? scene_.tracks : scene_.movers)
+      if (scene_.movers.empty() ? went_somewhere(trail) : !trail.points.empty()) all.push_back(&trail);
+    std::ranges::stable_sort(all, std::greater(), [](const Trail* trail) { return trail->points.size(); });
     if (all.size() > kMostBodies) all.resize(kMostBodies);
     return all;
   }
@@ -225,10 +214,9 @@ class Drawing {
     const auto moved_by = [&](Vec2 d) { return pair(on_sheet(d)); };
     const std::string radius = whole(to_sheet_.pixels(std::max(trail.radius_m, 0.1)));
     const std::string disc = "<circle r=\"" + radius + "\" fill=\"" + hex(colour_of(trail.id)) + "\"";
-    out_ += "<g transform=\"translate(" + place(way.back()) + ")\">" + moved(way, place) +
-            shown_while(playback_.stay(trail)) + disc + " class=\"expected\" fill-opacity=\".3\">" +
-            moved(ahead, moved_by) + "</circle>" + disc + "/><text font-size=\"22\" x=\"" + radius + "\">" +
-            std::to_string(trail.id) + "</text></g>\n";
+    out_ += "<g transform=\"translate(" + place(way.back()) + ")\">" + moved(way, place) + shown_while_there(trail) +
+            disc + " class=\"expected\" fill-opacity=\".3\">" + moved(ahead, moved_by) + "</circle>" + disc +
+            "/><text font-size=\"22\" x=\"" + radius + "\">" + std::to_string(trail.id) + "</text></g>\n";
   }
 
   /// At each step the way that a body goes in kAhead_s, straight on from the step before, to a wall at most.
@@ -244,11 +232,12 @@ class Drawing {
   }
 
   /// Bodies that come and go are invisible before and after.
-  [[nodiscard]] std::string shown_while(Playback::Stay stay) const {
-    if (stay.from <= 0.0 && stay.to >= 1.0) return "";
-    const std::string times = formatted("0;%.4f;%.4f", std::max(stay.from, 0.0001), std::max(stay.to, 0.0002));
+  [[nodiscard]] std::string shown_while_there(const Trail& trail) const {
+    const auto [from, to] = playback_.stay(trail);
+    if (from <= 0.0 && to >= 1.0) return "";
+    const std::string times = formatted("0;%.4f;%.4f", std::max(from, 0.0001), std::max(to, 0.0002));
     return "<animate attributeName=\"visibility\" calcMode=\"discrete\" values=\"" +
-           std::string(stay.from <= 0.0 ? "visible" : "hidden") + ";visible;" + (stay.to < 1.0 ? "hidden" : "visible") +
+           std::string(from <= 0.0 ? "visible" : "hidden") + ";visible;" + (to < 1.0 ? "hidden" : "visible") +
            "\" keyTimes=\"" + times + "\"" + dur();
   }
 

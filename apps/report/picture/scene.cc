@@ -1,7 +1,6 @@
 #include "apps/report/picture/scene.h"
 
 #include <cmath>
-#include <limits>
 
 #include "hal/types/trig.h"
 
@@ -22,17 +21,6 @@ void keep_every(Duration spacing, std::vector<Timed>& all) {
 constexpr double kMarginM = 0.6;
 constexpr double kStrayShare = 0.005;  ///< hits through windows and doors that would shrink everything else
 
-struct Box {
-  Vec2 low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-  Vec2 high{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
-
-  void hold(Vec2 p) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
-  }
-  [[nodiscard]] bool empty() const { return !(low.x <= high.x); }
-};
-
 /// The values that all but a share of kStrayShare lie between.
 std::pair<double, double> bulk(std::vector<double> values) {
   std::sort(values.begin(), values.end());
@@ -40,7 +28,7 @@ std::pair<double, double> bulk(std::vector<double> values) {
   return {values[stray], values[values.size() - 1 - stray]};
 }
 
-void hold_bulk(Box& box, const std::vector<Vec2>& points) {
+void hold_bulk(Extent& box, const std::vector<Vec2>& points) {
   if (points.empty()) return;
   std::vector<double> x, y;
   for (const Vec2 p : points) x.push_back(p.x), y.push_back(p.y);
@@ -76,36 +64,27 @@ std::vector<Vec2> shown_beams(const LaserScan& scan) {
 constexpr double kStepS = 0.4;       ///< 0.24 m at 0.6 m/s: what a straight line between two positions hides
 constexpr double kGoneAfterS = 1.0;  ///< a body without a point for this long has left
 
-/// The first of `all` later than `t`.
-template <class Timed>
-std::size_t after(const std::vector<Timed>& all, Time t) {
+/// Between those of `all` round time `t`, which it gives with the share of the way from one to the other; the first
+/// before it, the last after it.
+template <class Timed, class Between>
+auto held(const std::vector<Timed>& all, Time t, const Between& between) {
   const auto later = std::upper_bound(all.begin(), all.end(), t, [](Time a, const Timed& b) { return a < b.t; });
-  return static_cast<std::size_t>(later - all.begin());
-}
-
-template <class Timed>
-double share_between(const Timed& from, const Timed& to, Time t) {
-  return to_seconds(t - from.t) / to_seconds(to.t - from.t);
+  const Timed& from = later == all.begin() ? all.front() : later[-1];
+  const Timed& to = later == all.end() ? all.back() : *later;
+  return between(from, to, from.t == to.t ? 0.0 : to_seconds(t - from.t) / to_seconds(to.t - from.t));
 }
 
 Vec2 held_position(const Trail& trail, Time t) {
-  const std::size_t next = after(trail.points, t);
-  if (next == 0) return trail.points.front().position;
-  if (next == trail.points.size()) return trail.points.back().position;
-  const TrailPoint& from = trail.points[next - 1];
-  const TrailPoint& to = trail.points[next];
-  return from.position + (to.position - from.position) * share_between(from, to, t);
+  return held(trail.points, t, [](const TrailPoint& from, const TrailPoint& to, double share) {
+    return from.position + (to.position - from.position) * share;
+  });
 }
 
 Pose2 held_pose(const std::vector<DrivenPose>& driven, Time t) {
-  const std::size_t next = after(driven, t);
-  if (next == 0) return driven.front().pose;
-  if (next == driven.size()) return driven.back().pose;
-  const Pose2& from = driven[next - 1].pose;
-  const Pose2& to = driven[next].pose;
-  const double share = share_between(driven[next - 1], driven[next], t);
-  const Vec2 at = from.position() + (to.position() - from.position()) * share;
-  return {at.x, at.y, from.heading + wrap_angle(to.heading - from.heading) * share};
+  return held(driven, t, [](const DrivenPose& from, const DrivenPose& to, double share) {
+    const Vec2 at = from.pose.position() + (to.pose.position() - from.pose.position()) * share;
+    return Pose2{at.x, at.y, from.pose.heading + wrap_angle(to.pose.heading - from.pose.heading) * share};
+  });
 }
 
 Time gone_at(const Trail& trail) { return trail.points.back().t + duration_from_seconds(kGoneAfterS); }
@@ -160,7 +139,7 @@ std::vector<Trail> TrailBook::trails() const {
 
 std::vector<Vec2> occupied_cells(const EvidenceMap& map, const std::vector<DrivenPose>& driven, double reach_m) {
   std::vector<Vec2> cells;
-  Box box;
+  Extent box;
   for (const DrivenPose& d : driven) box.hold(d.pose.position());
   if (box.empty()) return cells;
   const CellIndex low = map.cell_at(box.low - Vec2{reach_m, reach_m});
@@ -174,7 +153,7 @@ std::vector<Vec2> occupied_cells(const EvidenceMap& map, const std::vector<Drive
 }
 
 Extent extent_of(const PictureScene& scene) {
-  Box box;
+  Extent box;
   for (const sim::WallSegment& wall : scene.walls) box.hold(wall.from), box.hold(wall.to);
   for (const DrivenPose& d : scene.driven) box.hold(d.pose.position());
   if (scene.walls.empty()) hold_bulk(box, scene.occupied);
@@ -248,7 +227,7 @@ std::vector<Vec2> Playback::positions(const Trail& trail) const {
   return all;
 }
 
-Playback::Stay Playback::stay(const Trail& trail) const {
+std::pair<double, double> Playback::stay(const Trail& trail) const {
   const auto share = [&](Time t) { return std::clamp(to_seconds(t - begin_) / lasts_s_, 0.0, 1.0); };
   return {share(trail.points.front().t), share(gone_at(trail))};
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <optional>
 #include <span>
@@ -75,8 +76,16 @@ class TrailBook {
   std::map<std::uint32_t, Trail> trails_;
 };
 
+/// A box round points; empty without any.
 struct Extent {
-  Vec2 low, high;
+  Vec2 low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+  Vec2 high{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+
+  void hold(Vec2 p) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+  }
+  [[nodiscard]] bool empty() const { return !(low.x <= high.x); }
 };
 
 /// A plan's field with its numbers: rows from the lowest y, NaN where not free, inf where unreachable.
@@ -204,11 +213,8 @@ class Playback {
   [[nodiscard]] std::vector<DrivenPose> scans(std::size_t count) const;
   /// The trail at each step; its first point before it begins, its last after it ends. `trail` has a point.
   [[nodiscard]] std::vector<Vec2> positions(const Trail& trail) const;
-  /// When the trail is there, as shares of the playback in [0, 1].
-  struct Stay {
-    double from = 0.0, to = 1.0;
-  };
-  [[nodiscard]] Stay stay(const Trail& trail) const;
+  /// From when to when the trail is there, as shares of the playback in [0, 1].
+  [[nodiscard]] std::pair<double, double> stay(const Trail& trail) const;
 
  private:
   [[nodiscard]] Time time_of(std::size_t step) const {
@@ -234,13 +240,10 @@ class Playback {
 /// cannot be written, or cairo is not installed.
 void draw_picture(const PictureScene& scene, const std::string& file);
 
-/// An animated SVG has at most about this many bytes, however long the run.
-inline constexpr std::size_t kMostSvgBytes = 100'000;
-
 /// The scene as a moving picture for browsers and READMEs: SVG with SMIL animation and no script; it repeats for ever.
 /// Walls, the robot with its way, goal, movers (tracks that moved where there are no movers). It plays in real time,
-/// runs longer than a minute faster. Positions are 0.4 s apart, farther where the file would become too large. The same
-/// scene gives the same text. An empty scene gives an empty map.
+/// runs longer than a minute faster. Positions are 0.4 s apart, farther where the text would have more than about
+/// 100 kB. The same scene gives the same text. An empty scene gives an empty map.
 [[nodiscard]] std::string svg_of(const PictureScene& scene);
 
 /// Writes svg_of(scene). Throws StartupError when `file` cannot be written.

@@ -47,11 +47,8 @@ function take_past(message) {
   axis();
   draw_soon();
 }
-function nearest(tick) {
-  let best = null;
-  for (const frame of frames.values()) if (!best || Math.abs(frame.tick - tick) < Math.abs(best.tick - tick)) best = frame;
-  return best;
-}
+const closest = (items, off) => items.reduce((a, b) => a && Math.abs(off(a)) <= Math.abs(off(b)) ? a : b, null);
+const nearest = tick => closest([...frames.values()], frame => frame.tick - tick);
 const is_replay = () => hello && !hello.takes_goals && !hello.takes_pauses;
 const is_local = () => hello && (over || !hello.takes_pauses);  // Pause and Play are the page's own
 function choose(tick) {

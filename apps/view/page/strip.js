@@ -20,7 +20,7 @@ function draw_strip(frame) {
     pen.setLineDash(dash.map(d => d * scale)); pen.strokeStyle = ink(name); pen.lineWidth = width * scale; pen.stroke();
   }
   pen.setLineDash([]);
-  draw_key(pen, left, scale, strip_hint === null ? null : rows.reduce((a, b) => a && Math.abs(at(a[1]) - strip_hint) < Math.abs(at(b[1]) - strip_hint) ? a : b, null), end);
+  draw_key(pen, left, scale, strip_hint === null ? null : closest(rows, row => at(row[1]) - strip_hint), end);
 }
 // Faults are red, limits amber; the words stand where they fit.
 function draw_reasons(pen, rows, at, y, height, scale) {
@@ -52,5 +52,5 @@ function tick_under(event) {
   const bounds = strip.getBoundingClientRect(), scale = strip.width / bounds.width, frame = frames.get(shown) || nearest(shown);
   if (!frame) return null;
   const left = 44 * scale, t = frame.t - kStrip_s + ((event.clientX - bounds.left) * scale - left) / (strip.width - left - 4 * scale) * kStrip_s;
-  return past.reduce((a, b) => a && Math.abs(a[1] - t) < Math.abs(b[1] - t) ? a : b, null);
+  return closest(past, row => row[1] - t);
 }

@@ -19,11 +19,8 @@
 
 using jaywalk::emulated::threadIdx, jaywalk::emulated::blockIdx, jaywalk::emulated::blockDim;
 
-inline void __syncthreads() { (void)jaywalk::emulated::meet_block(false); }
-inline int __syncthreads_or(int vote) { return jaywalk::emulated::meet_block(vote != 0) ? 1 : 0; }
-inline void __threadfence() {}
+inline void __syncthreads() { jaywalk::emulated::meet_block(); }
 inline int __clz(int n) { return std::countl_zero(static_cast<unsigned>(n)); }
-inline int __ffs(int n) { return n == 0 ? 0 : std::countr_zero(static_cast<unsigned>(n)) + 1; }
 
 template <class T>
 T atomicAdd(T* at, T by) {

@@ -41,8 +41,6 @@ class TimeCost {
     extra_ = has_way() ? price::kImpatience * stood_s : 0.0F;
   }
 
-  void begin(Cost& cost) const noexcept { cost.time = price::kArrivedEarly; }
-
   void add(const RobotState& now, Cost& cost) noexcept {
     waits_ = waits_ && !s_.stall.gets_on(s_.time_to_go(now));
     const bool is_dearer = waits_ || !s_.stall.is_alone;

@@ -16,8 +16,8 @@ namespace jaywalk::tests {
 
 namespace {
 
-void check_scan(Decoding decoding, const LaserScan& scan) {
-  if (decoding != Decoding::kScan) return;
+void check_scan(Heard decoding, const LaserScan& scan) {
+  if (decoding != Heard::kScan) return;
   require(scan.beam_count <= kMaxBeams);
   require(scan.stamp <= kArrival && scan.sweep >= Duration{0} && scan.period >= Duration{0});
   // Infinity is free room; NaN is said by none, and minus infinity only of the robot itself (blank()).
@@ -79,12 +79,12 @@ void fuzz_scip(wire::Bytes bytes) {
   static scip::AnswerStream stream;
   LaserScan& scan = reused_scan();
   std::uint32_t device_time_ms = 0;
-  stream.forget();
+  stream.clear();
   stream.append(bytes);
   while (const auto answer = stream.next()) {
     check_scan(scip::decode_scan(*answer, {}, kArrival, scan, device_time_ms), scan);
     scip::ScannerModel model;
-    if (scip::decode_model(*answer, model) != Decoding::kScan) continue;
+    if (!scip::decode_model(*answer, model)) continue;
     require(model.steps_per_turn > 0 && model.period > Duration{0} && model.first_step < model.last_step);
   }
 }
@@ -93,11 +93,11 @@ void fuzz_ldrobot(wire::Bytes bytes) {
   static ldrobot::PacketStream as_it_came, with_right_checksums;
   LaserScan& scan = reused_scan();
   ldrobot::SweepBuilder builder;
-  as_it_came.forget();
-  with_right_checksums.forget();
+  as_it_came.clear();
+  with_right_checksums.clear();
   as_it_came.append(bytes);
   while (const auto packet = as_it_came.next()) {
-    if (builder.add(*packet, kArrival, scan)) check_scan(Decoding::kScan, scan);
+    if (builder.add(*packet, kArrival, scan)) check_scan(Heard::kScan, scan);
   }
   // So that what lies behind the checksum is tried as well.
   for (; bytes.size() >= ldrobot::kPacketBytes; bytes = bytes.subspan(ldrobot::kPacketBytes)) {
@@ -106,7 +106,7 @@ void fuzz_ldrobot(wire::Bytes bytes) {
     made.back() = ldrobot::crc8(wire::Bytes(made).first(made.size() - 1));
     with_right_checksums.append(made);
     while (const auto packet = with_right_checksums.next()) {
-      if (builder.add(*packet, kArrival, scan)) check_scan(Decoding::kScan, scan);
+      if (builder.add(*packet, kArrival, scan)) check_scan(Heard::kScan, scan);
     }
   }
 }
@@ -117,7 +117,7 @@ void fuzz_lms200(wire::Bytes bytes) {
   LaserScan& scan = reused_scan();
   const std::uint8_t choice = take_choice(bytes);
   if ((choice & 1U) == 0) return check_scan(lms200::decode_scan(bytes, 38400, kArrival, scan), scan);
-  stream.forget();
+  stream.clear();
   stream.append(bytes);
   while (const auto body = stream.next()) check_scan(lms200::decode_scan(*body, 38400, kArrival, scan), scan);
 }
@@ -131,7 +131,7 @@ void fuzz_ros(wire::Bytes bytes) {
   std::copy_n(bytes.begin(), std::min(bytes.size(), message.size()), message.begin());
   for (const wire::Bytes each : {wire::Bytes(message), bytes}) {
     const bool is_scan = ros::decode_scan(each, kArrival, infinity_is_free, scan) == Heard::kScan;
-    if (is_scan) check_scan(Decoding::kScan, scan);
+    if (is_scan) check_scan(Heard::kScan, scan);
   }
 }
 

@@ -12,11 +12,11 @@
 #include "drivers/arcos/arcos_base.h"
 #include "drivers/can/socketcan.h"
 #include "drivers/canopen/cia402.h"
+#include "drivers/canopen/drive_base.h"
 #include "drivers/canopen/drive_proof.h"
 #include "drivers/canopen/sdo_client.h"
 #include "drivers/motor/odrive.h"
 #include "drivers/motor/vesc.h"
-#include "drivers/panel/joystick.h"
 #include "hal/types/errors.h"
 #include "hil/emulators/drive_objects.h"
 #include "tests/drivers/eds_file.h"
@@ -29,7 +29,7 @@ namespace {
 /// A bus that takes everything and says nothing.
 class SilentBus final : public CanBus {
  public:
-  [[nodiscard]] SendResult send(const CanFrame&) noexcept override { return SendResult::kQueued; }
+  [[nodiscard]] bool send(const CanFrame&) noexcept override { return true; }
   [[nodiscard]] bool receive(ReceivedFrame&) noexcept override { return false; }
   [[nodiscard]] CanHealth health() const noexcept override { return {}; }
 };
@@ -57,10 +57,11 @@ void fuzz_kernel_frame(wire::Bytes bytes) {
 
 void fuzz_canopen(wire::Bytes bytes) {
   emulators::DriveObjects objects;
+  canopen::WheelAxis axis({.node = 5, .per_rad = 100.0}, std::chrono::milliseconds(50));
   each_frame(bytes, 0x7FF, [&](const CanFrame& frame) {
-    if (const auto emergency = canopen::decode_emergency(frame)) require(frame.id == 0x080U + emergency->node);
-    if (const auto beat = canopen::decode_heartbeat(frame)) require(beat->node >= 1 && beat->node <= 127);
-    static_cast<void>(canopen::unpack(canopen::status_pdo(5).mapping, frame));
+    if (canopen::emergency_in(frame, 5)) require(frame.id == 0x085U && frame.size == 8);
+    if (canopen::heartbeat_in(frame, 5)) require(frame.id == 0x705U && frame.size > 0);
+    axis.take({frame, kArrival});
     if (const auto answer = objects.answer(5, frame)) require(answer->id == 0x585 && answer->size == 8);
   });
 }
@@ -68,10 +69,9 @@ void fuzz_canopen(wire::Bytes bytes) {
 void fuzz_sdo_client(wire::Bytes bytes) {
   SilentBus bus;
   canopen::SdoClient client(bus, 5, std::chrono::milliseconds(50));
-  const std::array<std::uint8_t, 40> value{};
   Time now = kArrival;
   const bool writes = !bytes.empty() && bytes[0] % 2 == 0;
-  require(writes ? client.write({0x1008, 0}, value, now) : client.read({0x1008, 0}, now));
+  require(writes ? client.write({{0x1008, 0}, 7, 4}, now) : client.read({0x1008, 0}, now));
   each_frame(bytes, 0, [&](CanFrame frame) {
     frame.id = 0x585;
     frame.extended = false;
@@ -133,12 +133,6 @@ void fuzz_arcos(wire::Bytes bytes) {
   }
 }
 
-void fuzz_input_event(wire::Bytes bytes) {
-  panel::EventStream events;
-  events.append(bytes);
-  while (events.next()) continue;
-}
-
 /// A file without a name, for a reader that wants a path.
 void fuzz_eds_file(wire::Bytes bytes) {
   static const int file = ::memfd_create("eds", MFD_CLOEXEC);
@@ -159,7 +153,6 @@ constexpr std::array<FuzzTarget, kFuzzTargets> kTargets{{{"kernel_frame", fuzz_k
                                                          {"eds_file", fuzz_eds_file},
                                                          {"motors", fuzz_motors},
                                                          {"arcos", fuzz_arcos},
-                                                         {"input_event", fuzz_input_event},
                                                          {"sick", fuzz_sick},
                                                          {"scip", fuzz_scip},
                                                          {"ldrobot", fuzz_ldrobot},

@@ -10,7 +10,7 @@ struct FuzzTarget {
 };
 
 /// Every decoder of drivers/ that takes bytes from outside.
-inline constexpr std::size_t kFuzzTargets = 13;
+inline constexpr std::size_t kFuzzTargets = 12;
 [[nodiscard]] const FuzzTarget& fuzz_target(std::size_t index);
 
 }  // namespace jaywalk::tests

@@ -16,14 +16,8 @@ namespace {
 
 constexpr DriveModel kDrive{.wheel_radius_m = 0.1, .track_width_m = 0.33, .max_wheel_speed_radps = 14.0};
 constexpr std::size_t kMostScans = 200;
-constexpr std::array<float, 8> kOdd{std::numeric_limits<float>::quiet_NaN(),
-                                    std::numeric_limits<float>::infinity(),
-                                    -std::numeric_limits<float>::infinity(),
-                                    0.0F,
-                                    -1.0F,
-                                    1e-38F,
-                                    1e38F,
-                                    1e6F};
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN(), kInfinity = std::numeric_limits<float>::infinity();
+constexpr std::array<float, 8> kOdd{kNan, kInfinity, -kInfinity, 0.0F, -1.0F, 1e-38F, 1e38F, 1e6F};
 
 void require(bool holds) {
   if (!holds) std::abort();
