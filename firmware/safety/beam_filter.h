@@ -16,8 +16,8 @@ namespace jaywalk {
 /// A dead diode, a cover or a mirror reports "no echo" as open ground does. Surfaces that turn free from one scan to
 /// the next, where the wheels say that they must show, have vanished; a pedestrian uncovers at most their own way of
 /// what they hid, and is then seen beside it. More than that is a fault: the beams there are doubted until each has hit
-/// something in two scans; all of them where none hits for kSilent, for indoors something is within reach. Thread: the
-/// loop's; memory is fixed.
+/// something in two scans; all of them where none hits for kSilent, for indoors something is within reach. Doubted
+/// beams are unknown to stop zone, tracker and map. Thread: the loop's; memory is fixed.
 class FreeClaims {
  public:
   /// Judges a new scan. `now_from_before`: pose of the laser at the scan before, in its frame at this one.

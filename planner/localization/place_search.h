@@ -61,8 +61,9 @@ struct PlaceFit {
 /// Search for the place, within 12.8 m of another, from which a scan was taken.
 ///
 /// Correlative search over the cells that were seen free, all headings, in steps of two cells and four degrees; the
-/// best that lie apart are matched closely (ScanMatcher) and judged by what the laser could see from there (is_hidden).
-/// One part of it a call, a millisecond or two: for the tick. Thread: the loop's. The constructor allocates 2 MB.
+/// best that lie apart are matched closely (match_sample) and judged by what the laser could see from there
+/// (is_hidden). One part of it a call, a millisecond or two: for the tick. Thread: the loop's. The constructor
+/// allocates 2 MB.
 class PlaceSearch {
  public:
   PlaceSearch();
