@@ -12,6 +12,7 @@ using namespace std::chrono_literals;
 using tests::DriveBench;
 using tests::DriveKind;
 using tests::with_each_kind;
+using tests::with_each_side;
 
 TEST_CASE("wheels turn as commanded and are felt in the same direction") {
   with_each_kind([](const DriveKind& kind, DriveBench& bench) {
@@ -95,30 +96,28 @@ TEST_CASE("drives that are disarmed while they drive are braked first") {
 }
 
 TEST_CASE("a fault of one drive stops both until a reset and a command of zero") {
-  for (const std::size_t side : {0U, 1U}) {
-    with_each_kind([side](const DriveKind& kind, DriveBench& bench) {
-      bench.bring_to_two_radps();
-      kind.break_down(bench, side);
-      bench.drive(2.0, 2.0, kind.stop_ticks);
-      CHECK(bench.drives().trouble() == kind.fault);
-      CHECK(bench.wheels.trouble == kind.fault);  // the loop reads it there
-      if (side == 1) CHECK(describe(bench.wheels.fault) == kind.broken);
-      CHECK(bench.wheel_radps(1 - side) == 0.0);
-      bench.drive(0.0, 0.0, 120);  // zero alone does not do
-      kind.mend(bench, side);
-      bench.drive(2.0, 2.0, 20);
-      CHECK(bench.is_at_rest());
-      bench.drives().reset();
-      bench.drive(2.0, 2.0, kind.proof_ticks);  // nor does a reset alone, and the proof that it begins
-      CHECK(bench.drives().is_proved());
-      CHECK(bench.is_at_rest());
-      bench.drive(0.0, 0.0, kind.enabling_ticks);
-      CHECK(bench.drives().trouble() == DriveTrouble::kNone);
-      bench.drive(2.0, 2.0, 50);
-      bench.require_two_radps();
-      CHECK_FALSE(bench.wheels.fault.is_told());
-    });
-  }
+  with_each_side([](const DriveKind& kind, DriveBench& bench, std::size_t side) {
+    bench.bring_to_two_radps();
+    kind.break_down(bench, side);
+    bench.drive(2.0, 2.0, kind.stop_ticks);
+    CHECK(bench.drives().trouble() == kind.fault);
+    CHECK(bench.wheels.trouble == kind.fault);  // the loop reads it there
+    if (side == 1) CHECK(describe(bench.wheels.fault) == kind.broken);
+    CHECK(bench.wheel_radps(1 - side) == 0.0);
+    bench.drive(0.0, 0.0, 120);  // zero alone does not do
+    kind.mend(bench, side);
+    bench.drive(2.0, 2.0, 20);
+    CHECK(bench.is_at_rest());
+    bench.drives().reset();
+    bench.drive(2.0, 2.0, kind.proof_ticks);  // nor does a reset alone, and the proof that it begins
+    CHECK(bench.drives().is_proved());
+    CHECK(bench.is_at_rest());
+    bench.drive(0.0, 0.0, kind.enabling_ticks);
+    CHECK(bench.drives().trouble() == DriveTrouble::kNone);
+    bench.drive(2.0, 2.0, 50);
+    bench.require_two_radps();
+    CHECK_FALSE(bench.wheels.fault.is_told());
+  });
 }
 
 TEST_CASE("a bus that takes no frames stops the drives") {

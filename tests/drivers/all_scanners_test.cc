@@ -8,17 +8,12 @@
 using namespace jaywalk;
 using namespace std::chrono_literals;
 using emulators::ScannerFault;
+using tests::round_room;
 using tests::ScannerBench;
 using tests::with_each_scanner;
 
-namespace {
-
-void look(std::size_t, std::span<float> range_m) { std::fill(range_m.begin(), range_m.end(), 2.0F); }
-
-}  // namespace
-
 TEST_CASE("a scanner's scans come whole, in time and without the heap") {
-  with_each_scanner(look, [](const tests::ScannerKind& kind, ScannerBench& bench) {
+  with_each_scanner(round_room, [](const tests::ScannerKind& kind, ScannerBench& bench) {
     CHECK(bench.scan().sequence == 0);
     bench.run(2s);
     CHECK(bench.scan().beam_count == kind.beams);
@@ -42,7 +37,7 @@ TEST_CASE("a scan's stamp is when its first beam was measured") {
     ScannerBench* running = nullptr;
     const auto bench = kind.make([&](std::size_t first, std::span<float> range_m) {
       if (first == 0) began.push_back(running->clock.now());
-      look(first, range_m);
+      round_room(first, range_m);
     });
     if (bench == nullptr) continue;
     running = bench.get();
@@ -61,7 +56,7 @@ TEST_CASE("a scan's stamp is when its first beam was measured") {
 }
 
 TEST_CASE("a scanner is found again after damage and noise and silence and a pulled plug") {
-  with_each_scanner(look, [](const tests::ScannerKind& kind, ScannerBench& bench) {
+  with_each_scanner(round_room, [](const tests::ScannerKind& kind, ScannerBench& bench) {
     bench.come_to_life();
     bench.run(1s);
     for (const ScannerFault fault : {ScannerFault::kHalfTelegram, ScannerFault::kDamage, ScannerFault::kGarbage}) {
@@ -102,7 +97,7 @@ TEST_CASE("a scanner is found again after damage and noise and silence and a pul
 }
 
 TEST_CASE("half a message costs one scan") {
-  with_each_scanner(look, [](const tests::ScannerKind& kind, ScannerBench& bench) {
+  with_each_scanner(round_room, [](const tests::ScannerKind& kind, ScannerBench& bench) {
     if (kind.half_bytes == 0) return;
     bench.come_to_life();
     const std::uint64_t sent = bench.server->messages_sent();
@@ -118,7 +113,7 @@ TEST_CASE("half a message costs one scan") {
 }
 
 TEST_CASE("a connection that the scanner resets is made anew") {
-  with_each_scanner(look, [](const tests::ScannerKind& kind, ScannerBench& bench) {
+  with_each_scanner(round_room, [](const tests::ScannerKind& kind, ScannerBench& bench) {
     if (!kind.on_network) return;
     bench.come_to_life();
     bench.server->order(ScannerFault::kReset);
@@ -133,7 +128,7 @@ TEST_CASE("a connection that the scanner resets is made anew") {
 }
 
 TEST_CASE("a scanner that reports an error is named so until it is well") {
-  with_each_scanner(look, [](const tests::ScannerKind& kind, ScannerBench& bench) {
+  with_each_scanner(round_room, [](const tests::ScannerKind& kind, ScannerBench& bench) {
     if (!kind.set_error) return;
     bench.come_to_life();
     kind.set_error(bench, true);
@@ -150,7 +145,7 @@ TEST_CASE("a scanner that reports an error is named so until it is well") {
 }
 
 TEST_CASE("a scanner that refuses to send scans is named so and asked again with rests") {
-  with_each_scanner(look, [](const tests::ScannerKind& kind, ScannerBench& bench) {
+  with_each_scanner(round_room, [](const tests::ScannerKind& kind, ScannerBench& bench) {
     if (!kind.refuse_scans) return;
     kind.refuse_scans(bench);
     bench.run(3s);

@@ -5,6 +5,7 @@
 #include "drivers/can/can_bus.h"
 #include "drivers/wired_drive.h"
 #include "tests/drivers/drive_bench.h"
+#include "tests/support/text.h"
 
 using namespace jaywalk;
 using namespace std::chrono_literals;
@@ -13,8 +14,6 @@ using Bench = tests::ArcosBench;
 namespace {
 
 constexpr std::uint8_t kStop = 29;
-
-bool says(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 /// A board of 100 ms, as from the factory, and a file that says so.
 arcos::BaseSetup of_ten_hz() {
@@ -85,7 +84,7 @@ TEST_CASE("a Pioneer with the factory's watchdog drives where that is allowed, a
   Bench bench(setup);
   bench.board.set_watchdog(2000);
   bench.bring_to_two_radps();
-  CHECK(says(bench.report[0], "Watchdog 2000 (wanted 40 to 100): NOT PROVED"));
+  CHECK(holds(bench.report[0], "Watchdog 2000 (wanted 40 to 100): NOT PROVED"));
   bench.wait(1900ms);
   bench.require_two_radps();
   bench.wait(300ms);
@@ -94,22 +93,20 @@ TEST_CASE("a Pioneer with the factory's watchdog drives where that is allowed, a
 
 TEST_CASE("a Pioneer is refused where its settings are not the file's, each with its figures and remedy") {
   const auto refusal = [](void (*change)(emulators::ArcosBoard&)) {
-    Bench bench;
-    change(bench.board);
-    return bench.armed();
+    return tests::armed_after<Bench>([change](Bench& bench) { change(bench.board); });
   };
-  CHECK(says(refusal([](auto& board) { board.set_cycle(100); }), "SipCycle 100 (wanted 20), TicksMM 128, "));
-  CHECK(says(refusal([](auto& board) { board.set_cycle(100); }), "; write that as report_ms in [drive]"));
-  CHECK(says(refusal([](auto& board) { board.set_ticks(138); }), "TicksMM 138 (wanted 128)"));
-  CHECK(says(refusal([](auto& board) { board.limit_ramps(1000, 800); }),
-             "TransAccel 1000 (wanted 2000), TransDecel 1000 (wanted 2000), RotAccel 800, "));
-  CHECK(says(refusal([](auto& board) { board.limit_ramps(2000, 300); }), "RotDecel 300 (wanted 800)"));
-  CHECK(says(refusal([](auto& board) { board.set_type("amigo"); }),
-             "line: amigo p3dx-sh: is no Pioneer; this drive is for ARCOS boards of type Pioneer"));
-  CHECK(says(refusal([](auto& board) { board.pull_cable(); }), "line: no Pioneer answers; switch it on"));
-  CHECK(says(refusal([](auto& board) { board.press_stop(true); }), "stop button pressed; release the stop button"));
-  CHECK(says(refusal([](auto& board) { board.set_watchdog(39); }), "Watchdog 39 (wanted 40 to 100)"));
-  CHECK(says(refusal([](auto& board) { board.set_watchdog(0); }), "Watchdog 0 (wanted 40 to 100)"));
+  CHECK(holds(refusal([](auto& board) { board.set_cycle(100); }), "SipCycle 100 (wanted 20), TicksMM 128, "));
+  CHECK(holds(refusal([](auto& board) { board.set_cycle(100); }), "; write that as report_ms in [drive]"));
+  CHECK(holds(refusal([](auto& board) { board.set_ticks(138); }), "TicksMM 138 (wanted 128)"));
+  CHECK(holds(refusal([](auto& board) { board.limit_ramps(1000, 800); }),
+              "TransAccel 1000 (wanted 2000), TransDecel 1000 (wanted 2000), RotAccel 800, "));
+  CHECK(holds(refusal([](auto& board) { board.limit_ramps(2000, 300); }), "RotDecel 300 (wanted 800)"));
+  CHECK(holds(refusal([](auto& board) { board.set_type("amigo"); }),
+              "line: amigo p3dx-sh: is no Pioneer; this drive is for ARCOS boards of type Pioneer"));
+  CHECK(holds(refusal([](auto& board) { board.pull_cable(); }), "line: no Pioneer answers; switch it on"));
+  CHECK(holds(refusal([](auto& board) { board.press_stop(true); }), "stop button pressed; release the stop button"));
+  CHECK(holds(refusal([](auto& board) { board.set_watchdog(39); }), "Watchdog 39 (wanted 40 to 100)"));
+  CHECK(holds(refusal([](auto& board) { board.set_watchdog(0); }), "Watchdog 0 (wanted 40 to 100)"));
 }
 
 TEST_CASE("a Pioneer's stop button is an emergency, a motor stall a fault, motors switched off have left operation") {
@@ -165,7 +162,7 @@ TEST_CASE("a Pioneer's odometry comes from its encoders, over the wrap of their 
     bench.board.begin_at(32766.0, 4294967296.0 / 128.0 - 50.0);  // both wrap 50 mm on
     const double from_rad = bench.wheel_rad(0);
     bench.bring_to_two_radps();
-    CHECK(says(bench.report[1], has_encoders ? "with encoders" : "no encoders"));
+    CHECK(holds(bench.report[1], has_encoders ? "with encoders" : "no encoders"));
     bench.drive(2.0, 1.0, 100);
     bench.drive(0.0, 0.0, 30);
     CHECK(bench.wheels.left_rad == Approx(bench.wheel_rad(0) - from_rad).margin(has_encoders ? 0.01 : 0.15));

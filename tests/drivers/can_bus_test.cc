@@ -2,7 +2,6 @@
 
 #include "drivers/can/in_process_bus.h"
 #include "tests/drivers/hand_clock.h"
-#include "tests/support/allocation_guard.h"
 #include "tests/support/catch.h"
 
 using namespace jaywalk;
@@ -135,18 +134,4 @@ TEST_CASE("what is no frame is refused") {
   CanFrame fat = numbered(1);
   fat.size = 9;
   CHECK_FALSE(bus.port(0).send(fat));
-}
-
-TEST_CASE("the in-process bus asks nothing of the heap") {
-  tests::HandClock clock;
-  InProcessBus bus(clock, 1);
-  ReceivedFrame received;
-  int arrived = 0;
-  const AllocationGuard guard;
-  for (int k = 0; k < 1000; ++k) {
-    if (bus.port(0).send(numbered(1)) && bus.port(1).receive(received)) ++arrived;
-  }
-  const auto calls = guard.calls();
-  CHECK(calls == 0);
-  CHECK(arrived == 1000);
 }

@@ -5,7 +5,6 @@
 #include "drivers/canopen/drive_base.h"
 #include "drivers/wired_drive.h"
 #include "tests/drivers/frames.h"
-#include "tests/drivers/random_bytes.h"
 #include "tests/support/catch.h"
 
 using namespace jaywalk;
@@ -34,8 +33,6 @@ TEST_CASE("an emergency message tells node and code, and its class is named") {
   CHECK_FALSE(emergency_in(sync_frame(), 5));
   CHECK_FALSE(emergency_in(frame(0x085, {0x30, 0x81}), 5));
 }
-
-TEST_CASE("node 1 watched for 100 ms is entry 00010064h") { CHECK(heartbeat_consumer_entry(1, 100) == 0x00010064); }
 
 TEST_CASE("controlword and target velocity are packed least significant byte first") {
   // -1000 is FFFFFC18h.
@@ -113,27 +110,4 @@ TEST_CASE("no statusword enables a drive that is not switched on") {
     if (controlword_towards(DriveGoal::kEnabled, state, true) != 0x0F) continue;
     REQUIRE((word & 0x2B) == 0x23);  // ready, switched on, no fault, no quick stop
   }
-}
-
-TEST_CASE("any frame is a service message or none") {
-  tests::RandomBytes random(3);
-  int beats = 0;
-  int emergencies = 0;
-  for (int k = 0; k < 200000; ++k) {
-    CanFrame any;
-    any.id = static_cast<std::uint32_t>(random.below(0x800));
-    const auto node = static_cast<std::uint8_t>(any.id % 0x80U);
-    any.size = static_cast<std::uint8_t>(random.below(9));
-    for (auto& byte : any.bytes) byte = random.byte();
-    if (heartbeat_in(any, node)) {
-      ++beats;
-      REQUIRE(any.id == 0x700U + node);
-    }
-    if (emergency_in(any, node)) {
-      ++emergencies;
-      REQUIRE(any.id == 0x080U + node);
-    }
-  }
-  CHECK(beats > 0);
-  CHECK(emergencies > 0);
 }

@@ -10,7 +10,6 @@
 #include "drivers/can/in_process_bus.h"
 #include "drivers/motor/odrive.h"
 #include "drivers/motor/vesc.h"
-#include "hal/types/errors.h"
 #include "hil/emulators/arcos_board.h"
 #include "hil/emulators/motor_node.h"
 #include "tests/drivers/drive_plant.h"
@@ -18,6 +17,7 @@
 #include "tests/drivers/watched_port.h"
 #include "tests/support/allocation_guard.h"
 #include "tests/support/catch.h"
+#include "tests/support/text.h"
 
 namespace jaywalk::tests {
 
@@ -48,12 +48,8 @@ class DriveBench {
   }
   /// What arming said, "armed" where it said yes.
   std::string armed() {
-    try {
-      report = drives().arm();
-    } catch (const StartupError& error) {
-      return error.what();
-    }
-    return "armed";
+    const std::string refused = refusal_of([this] { return report = drives().arm(); });
+    return refused.empty() ? "armed" : refused;
   }
   void bring_to_two_radps() {
     REQUIRE(armed() == "armed");
@@ -184,6 +180,14 @@ class ArcosBench : public DriveBench {
   emulators::ArcosBoard board;
   arcos::ArcosBase base;
 };
+
+/// Answer of arming to drives after `change`.
+template <class Bench, class Change>
+std::string armed_after(Change change) {
+  Bench bench;
+  change(bench);
+  return bench.armed();
+}
 
 using Cia402Bench = BenchOf<Cia402>;
 using OdriveBench = BenchOf<Odrive>;

@@ -33,12 +33,6 @@ DriveEvent on(void (*event)(typename Kind::Node&)) {
 
 const DriveEvent kUnplugged = [](DriveBench& bench, std::size_t side) { bench.pull_cable(side); };
 
-CanFrame extended(std::uint32_t id, std::initializer_list<std::uint8_t> bytes) {
-  CanFrame made = frame(id, bytes);
-  made.extended = true;
-  return made;
-}
-
 CanFrame remote(std::uint32_t id) {
   CanFrame made = frame(id, {});
   made.remote = true;
@@ -109,7 +103,6 @@ DriveKind cia402() {
       .disarm_ticks = 5,
       .own_stop = 182ms,  // missed 100 ms after the last heartbeat, 100 ms of ramp, two steps
       .noticed = 0ms,
-      .brakes_itself = true,
       .fault = DriveTrouble::kEmergency,
       .broken = "node 6: emergency 2310h (continuous over-current)",
       .break_down = on<Cia402>([](auto& drive) { drive.raise_fault(0x2310); }),
@@ -126,9 +119,7 @@ DriveKind cia402() {
       .jump = on<Cia402>([](auto& drive) { drive.jump(100.0 * Cia402::kPerRad); }),
       .unproved = "node 5: 6007h:0 stops when the controller is lost: wanted 0003h, refused (read only): NOT PROVED",
       .remedy = "use a drive that can prove it, or allow_unproved at your own risk",
-      .second_way = [](CanBus& bus) -> std::unique_ptr<EmergencyBrake> {
-        return std::make_unique<FrameBrake>(bus, canopen::quick_stop_frames({5, 6}));
-      },
+      .second_way = canopen::quick_stop_frames({5, 6}),
       .foreign = "CAN: another master on the bus: ",
       .masters = {frame(0x701, {5}), frame(0x000, {1, 0}), frame(0x080, {}), frame(0x206, {0x0F, 0, 1, 0, 0, 0}),
                   frame(0x505, {0}), frame(0x205, {0x0F, 0, 0, 0, 0, 0}),
@@ -143,7 +134,6 @@ DriveKind odrive_axes() {
           .make = make<Odrive>,
           .reserved_id = 63,
           .brake_radps2 = 8.0,
-          .tolerance_radps = 0.5,
           .travelled_rad = 1.8,  // 4 turns/s at 20 turns/s2 after 0.2 s: 0.4 turns; then 0.8 s at 4: 3.6 turns
           .enabling_ticks = 20,
           .stop_ticks = 15,
@@ -154,7 +144,6 @@ DriveKind odrive_axes() {
           .own_stop = 61ms + 2s,  // 4 turns/s roll out at 2 turns/s2
           .noticed = 170ms,       // 150 ms and a tick
           .brakes_itself = false,
-          .fault = DriveTrouble::kDriveFault,
           .broken = "ODrive node 4: error 00001000h (current limit)",
           .break_down = on<Odrive>([](auto& drive) { drive.set_lasting_error(0x1000); }),  // too much current
           .mend = on<Odrive>([](auto& drive) { drive.set_lasting_error(0); }),
@@ -169,10 +158,7 @@ DriveKind odrive_axes() {
           .remedy =
               "set enable_watchdog, watchdog_timeout = 0.06 and can.heartbeat_msg_rate_ms = 10 in the ODrive, or "
               "allow_unproved at your own risk",
-          .second_way = [](CanBus& bus) -> std::unique_ptr<EmergencyBrake> {
-            return std::make_unique<FrameBrake>(
-                bus, std::vector{odrive::set_velocity(3, 0.0F), odrive::set_velocity(4, 0.0F)});
-          },
+          .second_way = {odrive::set_velocity(3, 0.0F), odrive::set_velocity(4, 0.0F)},
           .foreign = "CAN: another program commands the drives: frame ",
           .masters = masters_of_odrives(),
           .strangers = {frame(0x0AD, {0, 0, 0, 0}),       // a speed for node 5
@@ -186,7 +172,6 @@ DriveKind vescs() {
           .make = make<Vesc>,
           .reserved_id = 254,  // ours
           .brake_radps2 = 15.0,
-          .tolerance_radps = 0.5,
           .travelled_rad = 1.9,  // 0.1 s of ramp are 0.1 rad, 0.9 s more at 2 rad/s 1.8
           .enabling_ticks = 5,
           .stop_ticks = 8,  // two to hear it and say it, 100 ms of ramp, before its timeout would brake
@@ -196,8 +181,6 @@ DriveKind vescs() {
           .disarm_ticks = 1,
           .own_stop = 172ms,  // the last command was 20 ms ago; 90 ms of timeout, 100 ms of ramp, two steps
           .noticed = 170ms,
-          .brakes_itself = true,
-          .fault = DriveTrouble::kDriveFault,
           .broken = "VESC 24: fault 3 (gate driver)",
           .break_down = on<Vesc>([](auto& drive) { drive.raise_fault(3); }),
           .mend = on<Vesc>([](auto& drive) { drive.raise_fault(0); }),
@@ -211,9 +194,7 @@ DriveKind vescs() {
           .remedy =
               "set timeout and timeout brake current (App Settings, General) with VESC Tool, or allow_unproved at "
               "your own risk",
-          .second_way = [](CanBus& bus) -> std::unique_ptr<EmergencyBrake> {
-            return std::make_unique<FrameBrake>(bus, std::vector{vesc::set_erpm(23, 0), vesc::set_erpm(24, 0)});
-          },
+          .second_way = {vesc::set_erpm(23, 0), vesc::set_erpm(24, 0)},
           .foreign = "CAN: another program commands the drives: frame ",
           .masters = masters_of_vescs(),
           .strangers = {extended(0x0319, {0, 0, 0, 0}),              // a speed for controller 25
@@ -251,9 +232,7 @@ CanFrame random_to_arcos(RandomBytes& random) {
 DriveKind arcos_boards() {
   return {.name = "Pioneer",
           .make = make_arcos,
-          .reserved_id = {},
           .brake_radps2 = 15.0,
-          .tolerance_radps = 0.5,
           .travelled_rad = 1.9,  // 0.1 s of ramp are 0.1 rad, 0.9 s more at 2 rad/s 1.8
           .enabling_ticks = 12,
           .stop_ticks = 40,  // without torque it rolls out: 0.67 s
@@ -263,8 +242,6 @@ DriveKind arcos_boards() {
           .disarm_ticks = 2,
           .own_stop = 182ms,  // the last word was 20 ms ago; 100 ms of watchdog, 100 ms of ramp, two steps
           .noticed = 170ms,
-          .brakes_itself = true,
-          .fault = DriveTrouble::kDriveFault,
           .restarted = DriveTrouble::kDriveSilent,  // it says nothing before a new connection
           .broken = "Pioneer: right wheel stalled",
           .break_down = on_board([](auto& board, std::size_t side) { board.stall(side, true); }),
@@ -280,12 +257,7 @@ DriveKind arcos_boards() {
               "line: Pioneer p3dx-sh, SipCycle 20, TicksMM 128, TransAccel 2000, TransDecel 2000, RotAccel 800, "
               "RotDecel 800, TransVelMax 600, RotVelMax 250, Watchdog 2000 (wanted 40 to 100): NOT PROVED",
           .remedy = "set Watchdog in the board's FLASH (ARCOScfg), or allow_unproved at your own risk",
-          .second_way = [](CanBus& bus) -> std::unique_ptr<EmergencyBrake> {
-            return std::make_unique<FrameBrake>(bus, arcos::stop_frames());
-          },
-          .foreign = "",
-          .masters = {},
-          .strangers = {},
+          .second_way = arcos::stop_frames(),
           .random_frame = random_to_arcos};
 }
 

@@ -18,13 +18,13 @@ const CanFrame kPreOperationalLeft = frame(0x000, {0x80, 5}), kPreOperationalAll
                kStopAll = frame(0x000, {0x02, 0}), kResetLeft = frame(0x000, {0x81, 5}),
                kResetCommunicationLeft = frame(0x000, {0x82, 5});
 
-/// Goes on wanting `wanted` of both wheels for the limit, `meanwhile` in every tick.
-void check_stops(Bench& bench, double wanted, const std::function<void()>& meanwhile = {}) {
+/// Goes on wanting 2 rad/s of both wheels for the limit, `meanwhile` in every tick.
+void check_stops(Bench& bench, const std::function<void()>& meanwhile = {}) {
   const Time cause = bench.clock.now();
   Time stood = kNever;
   while (bench.clock.now() < cause + kLimit + 400ms) {
     if (meanwhile) meanwhile();
-    bench.drive(wanted, wanted, 1);
+    bench.drive(2.0, 2.0, 1);
     if (bench.is_at_rest() && stood == kNever) stood = bench.clock.now();
   }
   const bool stands = stood != kNever && stood - cause <= kLimit;
@@ -48,24 +48,20 @@ void with_and_without_hearing(const std::function<void(Bench&)>& drill) {
 
 }  // namespace
 
-TEST_CASE("a drive that another program takes out of operation stops, and so does the other wheel") {
-  with_and_without_hearing([](Bench& bench) {
-    bench.stranger_says(kPreOperationalLeft);
-    check_stops(bench, 2.0);
-  });
-}
-
-TEST_CASE("both drives taken out of operation at once stop") {
-  with_and_without_hearing([](Bench& bench) {
-    bench.stranger_says(kPreOperationalAll);
-    check_stops(bench, 2.0);
-  });
+TEST_CASE("drives taken out of operation, one or both, or made to forget whom they watch stop both wheels") {
+  for (const CanFrame& said : {kPreOperationalLeft, kPreOperationalAll, kResetCommunicationLeft}) {
+    CAPTURE(said);
+    with_and_without_hearing([&said](Bench& bench) {
+      bench.stranger_says(said);
+      check_stops(bench);
+    });
+  }
 }
 
 TEST_CASE("drives that are NMT-stopped again and again stop by their own watchdogs") {
   with_and_without_hearing([](Bench& bench) {
     Time next = bench.clock.now();
-    check_stops(bench, 2.0, [&] {
+    check_stops(bench, [&] {
       if (bench.clock.now() < next) return;
       bench.stranger_says(kStopAll);
       next = bench.clock.now() + 50ms;
@@ -86,19 +82,12 @@ TEST_CASE("a drive that is reset under way stops both wheels, or the controller 
   });
 }
 
-TEST_CASE("a drive whose communication is reset, which makes it forget whom it watches, stops") {
-  with_and_without_hearing([](Bench& bench) {
-    bench.stranger_says(kResetCommunicationLeft);
-    check_stops(bench, 2.0);
-  });
-}
-
 TEST_CASE("a drive that ignores the quick stop because of the other's fault is stopped by its watchdog") {
   Bench bench;
   bench.bring_to_two_radps();
   bench.left.stick();
   bench.right.raise_fault(0x2310);
-  check_stops(bench, 2.0);
+  check_stops(bench);
   CHECK(bench.base.trouble() == DriveTrouble::kEmergency);
 }
 

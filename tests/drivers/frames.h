@@ -26,5 +26,12 @@ inline CanFrame frame(std::uint32_t id, std::initializer_list<std::uint8_t> byte
   return made;
 }
 
+/// The same with an identifier of 29 bits.
+inline CanFrame extended(std::uint32_t id, std::initializer_list<std::uint8_t> bytes) {
+  CanFrame made = frame(id, bytes);
+  made.extended = true;
+  return made;
+}
+
 }  // namespace tests
 }  // namespace jaywalk

@@ -10,7 +10,7 @@
 
 #include "drivers/can/socketcan.h"
 #include "drivers/wire/byte_reader.h"
-#include "tests/drivers/drive_plant.h"
+#include "tests/drivers/drive_bench.h"
 #include "tests/drivers/hand_clock.h"
 #include "tests/support/allocation_guard.h"
 #include "tests/support/catch.h"
@@ -26,20 +26,24 @@ bool is_missing() {
   return true;
 }
 
-SocketCan place_on_bus(Clock& clock) {
-  const std::array all{CanFilter{.id = 0, .mask = 0, .extended = false}};
+SocketCan place_on_bus(Clock& clock, bool extended = false) {
+  const std::array all{CanFilter{.id = 0, .mask = 0, .extended = extended}};
   return {open_can("vcan0", all), clock};
 }
 
-/// What the bench of the in-process bus is, on the kernel's: controller and drives each have a socket of their own.
+/// The bench of the in-process bus on the kernel's: controller and drives each have a socket of their own.
+template <class Kind>
 struct KernelBench {
-  KernelBench() {
+  explicit KernelBench(bool extended = false)
+      : controller(place_on_bus(clock, extended)),
+        left_socket(place_on_bus(clock, extended)),
+        right_socket(place_on_bus(clock, extended)) {
     clock.plant = [this](Time now) { left.step(now), right.step(now); };
   }
-  static DriveBaseSetup patient() {
-    DriveBaseSetup setup = tests::two_axes();
-    setup.silence_limit = setup.stop.fresh =
-        std::chrono::seconds(2);  // frames have real ages here, and this machine may be busy
+  /// Frames have real ages here, and this machine may be busy.
+  static typename Kind::Setup patient() {
+    auto setup = Kind::setup();
+    setup.silence_limit = setup.stop.fresh = std::chrono::seconds(2);
     return setup;
   }
   void drive(double speed_radps, int ticks) {
@@ -49,13 +53,24 @@ struct KernelBench {
       clock.sleep_until(clock.now() + std::chrono::milliseconds(20));
     }
   }
-  void bring_to_two_radps() {
-    CHECK(base.arm().size() == 76);
-    drive(0.0, 10);
+  void bring_to_two_radps(std::size_t proved, int enabling_ticks) {
+    REQUIRE(base.arm().size() == proved);
+    drive(0.0, enabling_ticks);
     drive(2.0, 50);
-    REQUIRE(left.velocity() == Approx(2000.0));
-    REQUIRE(right.velocity() == Approx(-2000.0));
+    REQUIRE(left.velocity() == Approx(2.0 * Kind::kPerRad));
+    REQUIRE(right.velocity() == Approx(-2.0 * Kind::kPerRad));
+    CHECK(wheels.right_radps == Approx(2.0));
   }
+
+  tests::PlantClock clock;
+  SocketCan controller, left_socket, right_socket;
+  typename Kind::Node left{left_socket, Kind::kIds[0]}, right{right_socket, Kind::kIds[1]};
+  typename Kind::Base base{controller, clock, patient()};
+  WheelState wheels;
+};
+
+struct Cia402KernelBench : KernelBench<tests::Cia402> {
+  Cia402KernelBench() { bring_to_two_radps(76, 10); }
   void check_stopped_until_reset() {
     CHECK(left.velocity() == 0.0);
     CHECK(right.velocity() == 0.0);
@@ -69,13 +84,16 @@ struct KernelBench {
     CHECK(base.trouble() == DriveTrouble::kNone);
     CHECK(left.velocity() == Approx(2000.0));
   }
-
-  tests::PlantClock clock;
-  SocketCan controller = place_on_bus(clock), left_socket = place_on_bus(clock), right_socket = place_on_bus(clock);
-  emulators::Cia402Node left{left_socket, 5}, right{right_socket, 6};
-  CanopenDriveBase base{controller, clock, patient()};
-  WheelState wheels;
 };
+
+/// Checks a pair whose left drive has just failed under way.
+template <class Kind>
+void check_fault_stops(KernelBench<Kind>& bench) {
+  bench.drive(2.0, 20);
+  CHECK(bench.wheels.trouble == DriveTrouble::kDriveFault);
+  CHECK(bench.right.velocity() == 0.0);
+  CHECK(bench.controller.health().frames_lost == 0);
+}
 
 }  // namespace
 
@@ -123,8 +141,7 @@ TEST_CASE("what a second user of a socket sends reaches the bus and not the sock
 TEST_CASE("a stranger on the kernel's bus is a fault, and the second user of the controller's socket is none",
           "[can]") {
   if (is_missing()) return;
-  KernelBench bench;
-  bench.bring_to_two_radps();
+  Cia402KernelBench bench;
   SocketCan second(bench.controller.second(), bench.clock), stranger = place_on_bus(bench.clock);
   REQUIRE(second.send(sync_frame()));
   bench.drive(2.0, 10);
@@ -137,8 +154,7 @@ TEST_CASE("a stranger on the kernel's bus is a fault, and the second user of the
 
 TEST_CASE("drives arm, drive and stop over the kernel's virtual bus without a lost frame or the heap", "[can]") {
   if (is_missing()) return;
-  KernelBench bench;
-  bench.bring_to_two_radps();
+  Cia402KernelBench bench;
   const AllocationGuard guard;
   bench.drive(1.0, 500);
   const auto calls = guard.calls();
@@ -156,8 +172,7 @@ TEST_CASE("drives arm, drive and stop over the kernel's virtual bus without a lo
 
 TEST_CASE("bus-off as the kernel tells it stops the drives until a reset", "[can]") {
   if (is_missing()) return;
-  KernelBench bench;
-  bench.bring_to_two_radps();
+  Cia402KernelBench bench;
   const auto injector = open_can("vcan0", {});
   can_frame error{};
   error.can_id = CAN_ERR_FLAG | CAN_ERR_BUSOFF;
@@ -171,8 +186,7 @@ TEST_CASE("bus-off as the kernel tells it stops the drives until a reset", "[can
 
 TEST_CASE("a link that goes down stops the drives until it is up and somebody resets", "[can]") {
   if (is_missing()) return;
-  KernelBench bench;
-  bench.bring_to_two_radps();
+  Cia402KernelBench bench;
   if (std::system("ip link set vcan0 down") != 0) {
     std::cout << "skipped: may not set vcan0 down\n";
     return;
@@ -183,4 +197,20 @@ TEST_CASE("a link that goes down stops the drives until it is up and somebody re
   REQUIRE(std::system("ip link set vcan0 up") == 0);
   bench.drive(2.0, 12);
   bench.check_stopped_until_reset();
+}
+
+TEST_CASE("ODrives over the kernel's bus are proved, drive, and stop when one of them fails", "[can]") {
+  if (is_missing()) return;
+  KernelBench<tests::Odrive> bench;
+  bench.bring_to_two_radps(2, 20);
+  bench.left.set_lasting_error(0x1000);
+  check_fault_stops(bench);
+}
+
+TEST_CASE("VESCs over the kernel's bus are read back, drive, and stop when one of them fails", "[can]") {
+  if (is_missing()) return;
+  KernelBench<tests::Vesc> bench(true);
+  bench.bring_to_two_radps(2, 10);
+  bench.left.raise_fault(3);
+  check_fault_stops(bench);
 }

@@ -5,8 +5,6 @@
 #include <memory>
 #include <vector>
 
-#include "tests/drivers/random_bytes.h"
-#include "tests/support/allocation_guard.h"
 #include "tests/support/catch.h"
 
 using namespace jaywalk;
@@ -71,38 +69,23 @@ TEST_CASE("half a degree in centimetres becomes a scan from right to left") {
 }
 
 TEST_CASE("of an LMS200's codes only 'beyond the maximum' is free room, and a dazzled value proves nothing") {
-  struct Case {
-    unsigned value;
-    BeamState state;
-  };
-  const std::vector<Case> cases{{100, BeamState::kHit},
-                                {100 | 0x2000, BeamState::kHit},  // in field A
-                                {100 | 0x4000, BeamState::kHit},  // in field B
-                                {8181, BeamState::kHit},
-                                {8183, BeamState::kFree},
-                                {8183 | 0x6000, BeamState::kFree},
-                                {0, BeamState::kUnknown},
-                                {8184, BeamState::kUnknown},
-                                {8185, BeamState::kUnknown},
-                                {8186, BeamState::kUnknown},  // channel 1 could not be read
-                                {8187, BeamState::kUnknown},  // too much noise
-                                {8188, BeamState::kUnknown},
-                                {8189, BeamState::kUnknown},  // overflow
-                                {8190, BeamState::kUnknown},  // dazzled
-                                {8191, BeamState::kUnknown},  // not valid
-                                {100 | 0x8000, BeamState::kUnknown},
-                                {8183 | 0x8000, BeamState::kUnknown}};
+  // 2000h, 4000h: in field A, in field B; 8000h: dazzled. 8186: channel 1 could not be read; 8187: too much noise;
+  // 8189: overflow; 8190: dazzled; 8191: not valid.
+  const std::vector<std::pair<BeamState, std::vector<unsigned>>> cases{
+      {BeamState::kHit, {100, 100 | 0x2000, 100 | 0x4000, 8181}},
+      {BeamState::kFree, {8183, 8183 | 0x6000}},
+      {BeamState::kUnknown, {0, 8184, 8185, 8186, 8187, 8188, 8189, 8190, 8191, 100 | 0x8000, 8183 | 0x8000}}};
   for (const unsigned unit : {0U, 0x4000U}) {  // centimetres and millimetres
-    Octets body = values(181, unit);
-    for (std::size_t k = 0; k < cases.size(); ++k) {
-      body[3 + 2 * k] = static_cast<std::uint8_t>(cases[k].value);
-      body[4 + 2 * k] = static_cast<std::uint8_t>(cases[k].value >> 8U);
-    }
-    LaserScan scan;
-    REQUIRE(decode_scan(body, 38400, Time{1s}, scan) == Heard::kScan);
-    for (std::size_t k = 0; k < cases.size(); ++k) {
-      INFO(cases[k].value);
-      CHECK(scan.state(k) == cases[k].state);
+    for (const auto& [state, codes] : cases) {
+      for (const unsigned code : codes) {
+        Octets body = values(181, unit);
+        body[3] = static_cast<std::uint8_t>(code);
+        body[4] = static_cast<std::uint8_t>(code >> 8U);
+        LaserScan scan;
+        REQUIRE(decode_scan(body, 38400, Time{1s}, scan) == Heard::kScan);
+        INFO(code);
+        CHECK(scan.state(0) == state);
+      }
     }
   }
 }
@@ -176,29 +159,4 @@ TEST_CASE("an LMS200 is quieted and then told to send all") {
   static_cast<void>(protocol.to_say(Time{3s}));
   protocol.hear(telegram({0xA0, 0x01, 0x10}));  // wrong password
   CHECK(protocol.next(Time{3s}, *scan) == Heard::kRefused);
-}
-
-TEST_CASE("any bytes make an LMS200 scan within its limits or a named refusal") {
-  tests::RandomBytes random(42);
-  auto scan = std::make_unique<LaserScan>();
-  auto telegrams = std::make_unique<TelegramStream>();
-  const Octets good = values(101);
-  const Octets framed_good = telegram(good);
-  int scans = 0;
-  std::uint64_t heap_calls = 0;
-  for (int k = 0; k < 20000; ++k) {
-    const Octets body = random.damaged(good);
-    const Octets bytes = random.damaged(framed_good);
-    const AllocationGuard guard;
-    const Heard decoding = decode_scan(body, 38400, Time{1s}, *scan);
-    telegrams->append(bytes);
-    while (telegrams->next()) ++scans;
-    heap_calls += guard.calls();
-    REQUIRE(decoding != Heard::kNothing);
-    if (decoding != Heard::kScan) continue;
-    REQUIRE(scan->beam_count == 101);
-    REQUIRE(scan->stamp < Time{1s});
-  }
-  CHECK(scans > 0);
-  CHECK(heap_calls == 0);
 }

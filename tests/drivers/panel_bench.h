@@ -43,12 +43,6 @@ struct GoalAtOne final : OperatorPanel {
   }
 };
 
-/// This machine's.
-struct SleepingClock final : Clock {
-  [[nodiscard]] Time now() noexcept override { return Time{std::chrono::steady_clock::now().time_since_epoch()}; }
-  void sleep_until(Time wake) noexcept override { std::this_thread::sleep_for(wake - now()); }
-};
-
 /// A named pipe in the place of a device: it says what a test writes, and nothing when asked how things stand.
 class Bench {
  public:
@@ -73,6 +67,16 @@ class Bench {
     REQUIRE(::write(writer_.get(), bytes.data(), bytes.size()) == static_cast<ssize_t>(bytes.size()));
   }
   void press(std::uint16_t code, bool pressed = true) { write(event(EV_KEY, code, pressed ? 1 : 0)); }
+  void press_dead_man() {
+    press(kDeadMan, false);
+    press(kDeadMan);
+  }
+  /// Plugs it in and holds its dead man's button after that was seen released.
+  void plug_in_and_hold() {
+    plug_in();
+    static_cast<void>(after(0ms));
+    press_dead_man();
+  }
   OperatorInput after(Duration time) {
     clock.sleep_until(clock.now() + time);
     watch.step();

@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "drivers/panel/joystick.h"
+#include "firmware/robot/realtime.h"
 #include "tests/drivers/panel_bench.h"
 #include "tests/drivers/random_bytes.h"
 
@@ -25,8 +26,7 @@ TEST_CASE("a goal passes while the dead man's button is held") {
   OperatorInput input = bench.after(0ms);
   CHECK_FALSE(input.emergency_stop);
   CHECK_FALSE(input.has_goal);
-  bench.press(kDeadMan, false);
-  bench.press(kDeadMan);
+  bench.press_dead_man();
   input = bench.after(20ms);
   CHECK(input.has_goal);
   CHECK(input.goal_in_map.x == 1.0);
@@ -44,8 +44,7 @@ TEST_CASE("a dead man's button that was never seen released does not count") {
   CHECK_FALSE(bench.after(20ms).has_goal);
   bench.write(event(EV_KEY, kDeadMan, 2));  // the kernel repeats what is held
   CHECK_FALSE(bench.after(20ms).has_goal);
-  bench.press(kDeadMan, false);
-  bench.press(kDeadMan);
+  bench.press_dead_man();
   CHECK(bench.after(20ms).has_goal);
 }
 
@@ -77,10 +76,7 @@ TEST_CASE("an emergency stop that opens a contact stops until it is known to be 
 
 TEST_CASE("a joystick that is pulled is an emergency stop and is found again with its dead man forgotten") {
   Bench bench;
-  bench.plug_in();
-  static_cast<void>(bench.after(0ms));
-  bench.press(kDeadMan, false);
-  bench.press(kDeadMan);
+  bench.plug_in_and_hold();
   CHECK(bench.after(20ms).has_goal);
   bench.pull();
   OperatorInput input = bench.after(20ms);
@@ -102,10 +98,7 @@ TEST_CASE("the loop's thread opens no device: what the watch has not looked at i
 
 TEST_CASE("a watch that hangs for more than 100 ms is a joystick that is gone") {
   Bench bench;
-  bench.plug_in();
-  static_cast<void>(bench.after(0ms));
-  bench.press(kDeadMan, false);
-  bench.press(kDeadMan);
+  bench.plug_in_and_hold();
   CHECK(bench.after(20ms).has_goal);
   bench.clock.sleep_until(bench.clock.now() + 100ms);
   CHECK(bench.tick().has_goal);
@@ -135,10 +128,7 @@ TEST_CASE("a stop that is pressed and let go between two ticks is one for a tick
 TEST_CASE(
     "a dead man that is to be renewed counts until two seconds after the last event, then it must be pressed anew") {
   Bench bench(false, 2s);
-  bench.plug_in();
-  static_cast<void>(bench.after(0ms));
-  bench.press(kDeadMan, false);
-  bench.press(kDeadMan);
+  bench.plug_in_and_hold();
   CHECK(bench.after(20ms).has_goal);
   CHECK(bench.after(2s).has_goal);
   bench.write(event(EV_ABS, kX, 100));  // the link lives
@@ -147,8 +137,7 @@ TEST_CASE(
   CHECK_FALSE(bench.after(10ms).has_goal);
   bench.write(event(EV_ABS, kX, 0));
   CHECK_FALSE(bench.after(10ms).has_goal);
-  bench.press(kDeadMan, false);
-  bench.press(kDeadMan);
+  bench.press_dead_man();
   CHECK(bench.after(10ms).has_goal);
 }
 
@@ -158,34 +147,27 @@ TEST_CASE("a dead man on Bluetooth counts only where it is to be renewed, and sa
   for (const auto& [bus, renew, drives] :
        {std::tuple{bluetooth, Duration{0}, false}, {bluetooth, Duration{2s}, true}, {usb, Duration{0}, true}}) {
     Bench bench(false, renew, bus);
-    bench.plug_in();
-    static_cast<void>(bench.after(0ms));
-    bench.press(kDeadMan, false);
-    bench.press(kDeadMan);
+    bench.plug_in_and_hold();
     CHECK(bench.after(20ms).has_goal == drives);
     CHECK(bench.watch.latest().needs_renewal == !drives);
   }
 }
 
 TEST_CASE("a watch in a thread of its own finds the joystick and publishes how it stands") {
-  SleepingClock clock;
+  SteadyClock clock;
   Bench pipe;
   pipe.plug_in();
   JoystickWatch watch(clock, {.path = pipe.path()});
   watch.start(0);
   while (!watch.latest().connected) std::this_thread::sleep_for(1ms);
-  pipe.press(kDeadMan, false);
-  pipe.press(kDeadMan);
+  pipe.press_dead_man();
   while (!watch.latest().dead_man) std::this_thread::sleep_for(1ms);
   CHECK(watch.latest().dead_man);
 }
 
 TEST_CASE("a joystick whose events were lost is asked again how it stands") {
   Bench bench;
-  bench.plug_in();
-  static_cast<void>(bench.after(0ms));
-  bench.press(kDeadMan, false);
-  bench.press(kDeadMan);
+  bench.plug_in_and_hold();
   CHECK(bench.after(20ms).has_goal);
   bench.write(event(EV_SYN, SYN_DROPPED, 0));
   OperatorInput input = bench.after(20ms);
@@ -248,4 +230,44 @@ TEST_CASE("a pipe in the place of a joystick that is asked what it has counts as
   CHECK_FALSE(asked.state().connected);
   CHECK(asked.state().stop);
   CHECK(unasked.state().connected);
+}
+
+TEST_CASE("sticks count from a dead zone to the end while the dead man's button is held") {
+  Bench bench;
+  bench.plug_in();
+  static_cast<void>(bench.after(0ms));
+  bench.write(event(EV_ABS, kY, -32767));
+  static_cast<void>(bench.after(20ms));
+  CHECK(bench.watch.latest().forward == 0.0);
+  bench.press_dead_man();
+  static_cast<void>(bench.after(20ms));
+  CHECK(bench.watch.latest().dead_man);
+  CHECK(bench.watch.latest().forward == 0.0);  // pushed before: it has to come to its middle first
+  bench.write(event(EV_ABS, kY, 0));
+  static_cast<void>(bench.after(20ms));
+  bench.write(event(EV_ABS, kY, -32767));
+  bench.write(event(EV_ABS, kX, 3276));  // a tenth to the right: at rest
+  static_cast<void>(bench.after(20ms));
+  CHECK(bench.watch.latest().forward == Approx(1.0));
+  CHECK(bench.watch.latest().left == 0.0);
+  bench.write(event(EV_ABS, kX, -18022));  // 0.55 to the left: (0.55 - 0.1) / 0.9
+  static_cast<void>(bench.after(20ms));
+  CHECK(bench.watch.latest().left == Approx(0.5).margin(1e-4));
+}
+
+TEST_CASE("where the stick drives it takes the goal's place when it leaves its middle, while the dead man is held") {
+  Bench bench(false, 0s, bus_of, true);
+  bench.plug_in_and_hold();
+  OperatorInput input = bench.after(20ms);
+  CHECK(input.has_goal);  // the stick rests: what was asked for elsewhere counts
+  CHECK_FALSE(input.steers);
+  bench.write(event(EV_ABS, kY, -32767));
+  input = bench.after(20ms);
+  CHECK_FALSE(input.has_goal);
+  CHECK(input.steers);
+  CHECK(input.stick.forward == Approx(1.0));
+  bench.press(kDeadMan, false);
+  input = bench.after(20ms);
+  CHECK(input.stick.is_centred());
+  CHECK_FALSE(input.wants_motion());
 }

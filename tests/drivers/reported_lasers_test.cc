@@ -1,18 +1,14 @@
 // Scanners as their users report them: dialects and angles that differ from the manual.
-#include <algorithm>
 #include <chrono>
 
+#include "drivers/laser/scip.h"
 #include "drivers/laser/sick.h"
 #include "tests/drivers/scanner_kinds.h"
+#include "tests/drivers/serial_line.h"
 
 using namespace jaywalk;
 using namespace std::chrono_literals;
-
-namespace {
-
-void round_room(std::size_t, std::span<float> range_m) { std::fill(range_m.begin(), range_m.end(), 2.0F); }
-
-}  // namespace
+using tests::round_room;
 
 TEST_CASE("an RPLIDAR whose turns end at 360 degrees or beyond gives a scan a turn") {
   for (const double first_deg : {1.0, 1.5, 5.0}) {
@@ -53,4 +49,24 @@ TEST_CASE("a SICK scanner whose port speaks the other dialect is spoken to in th
     bench.run(3s);
     CHECK(bench.is_well());
   }
+}
+
+TEST_CASE("a serial line with a scanner that still sends what somebody else asked for is quieted first") {
+  auto line = tests::serial_line();
+  if (line == nullptr) return;
+  auto endpoint = wire::serial_endpoint(line->path(), 115200);
+  const wire::Endpoint before = endpoint;
+  tests::ScannerBench bench(
+      std::make_unique<emulators::ScipServer>(std::move(line), emulators::ScipModel{}, round_room), std::move(endpoint),
+      std::make_unique<scip::ScipProtocol>());
+  {
+    const wire::FileDescriptor somebody = before.open();
+    const std::string asked = "BM\nMD0100020001000\n";
+    REQUIRE(::write(somebody.get(), asked.data(), asked.size()) == static_cast<ssize_t>(asked.size()));
+    bench.server->step(bench.clock.now());
+    REQUIRE(bench.server->is_streaming());
+  }
+  bench.come_to_life();
+  CHECK(bench.scan().beam_count == 1081);
+  CHECK(bench.health().malformed == 0);
 }

@@ -44,7 +44,6 @@ ScannerKind sick(const char* name, MakeScanner make) {
           .oldest = duration_from_seconds(2.0 / 15.0),
           .conversation = 20ms,
           .on_network = true,
-          .whole = true,
           .half_bytes = 800,
           .set_error = [](ScannerBench& bench, bool on) { bench.as<emulators::SickServer>().set_unwell(on); },
           .refuse_scans = [](ScannerBench& bench) { bench.as<emulators::SickServer>().refuse("LMDscandata"); }};
@@ -62,7 +61,6 @@ ScannerKind hokuyo(const char* name, MakeScanner make, bool on_network) {
       .oldest = 50ms,
       .conversation = 20ms,
       .on_network = on_network,
-      .whole = true,
       .half_bytes = 1600,  // of 1081 x 3 characters
       .set_error = [](ScannerBench& bench, bool on) { bench.as<emulators::ScipServer>().set_status(on ? "0L" : ""); },
       .refuse_scans = [](ScannerBench& bench) { bench.as<emulators::ScipServer>().break_laser(); }};
@@ -81,31 +79,21 @@ ScannerKind ld() {
           .least_scans = 18,
           .early = 3ms,
           .late = 3ms,
-          .oldest = 300ms,
           .conversation = 120ms,
-          .on_network = false,
-          .whole = false,
-          .half_bytes = 0,
-          .set_error = {},
-          .refuse_scans = {}};
+          .whole = false};
 }
 
 /// A telegram takes 96.9 ms on its line, of every eighth turn.
 ScannerKind lms200() {
-  return {.name = "LMS200",
-          .make = lms200_bench,
-          .beams = 181,
-          .period = duration_from_seconds(8.0 / 75.0),
-          .least_scans = 16,
-          .early = 1ms,  // a step of the bench: turns do not begin on whole ones
-          .late = 3ms,
-          .oldest = 300ms,
-          .conversation = 300ms,
-          .on_network = false,
-          .whole = true,
-          .half_bytes = 0,
-          .set_error = [](ScannerBench& bench, bool on) { bench.as<emulators::Lms200Server>().set_status(on ? 3 : 0); },
-          .refuse_scans = {}};
+  return {
+      .name = "LMS200",
+      .make = lms200_bench,
+      .beams = 181,
+      .period = duration_from_seconds(8.0 / 75.0),
+      .least_scans = 16,
+      .early = 1ms,  // a step of the bench: turns do not begin on whole ones
+      .late = 3ms,
+      .set_error = [](ScannerBench& bench, bool on) { bench.as<emulators::Lms200Server>().set_status(on ? 3 : 0); }};
 }
 
 /// A point comes up to eight points, 2.2 ms, after it was measured.
@@ -117,12 +105,7 @@ ScannerKind rplidar() {
           .least_scans = 17,
           .early = 0ms,
           .late = 4ms,
-          .oldest = 300ms,
-          .conversation = 300ms,
-          .on_network = false,
           .whole = false,
-          .half_bytes = 0,
-          .set_error = {},
           .refuse_scans = [](ScannerBench& bench) { bench.as<emulators::RplidarServer>().break_down(); }};
 }
 

@@ -1,6 +1,8 @@
 #pragma once
+#include <algorithm>
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,6 +14,9 @@
 namespace jaywalk::tests {
 
 using ScannerWorld = emulators::ScannerServer::World;
+
+/// A wall at 2 m all around.
+inline void round_room(std::size_t, std::span<float> range_m) { std::fill(range_m.begin(), range_m.end(), 2.0F); }
 
 /// A scanner of a kind in `world`; none, and "skipped" said, where this machine has no pseudo terminals.
 using MakeScanner = std::unique_ptr<ScannerBench> (*)(const ScannerWorld& world);
@@ -32,13 +37,13 @@ struct ScannerKind {
   Duration period;
   std::uint64_t least_scans;  ///< of two seconds, less what the conversation took and a turn seen in part
   Duration early, late;       ///< a stamp may be so long before and after its first beam was measured
-  Duration oldest;            ///< most that a stamp is ago
-  Duration conversation;      ///< from a connection to a first whole scan, at most
-  bool on_network;
-  bool whole;                ///< a damaged message costs its scan; otherwise a few sectors
-  std::uint64_t half_bytes;  ///< of half a message, at least, that is counted as one lost; 0: not counted so
-  std::function<void(ScannerBench&, bool)> set_error;  ///< it reports an error; none: it has no word for it
-  std::function<void(ScannerBench&)> refuse_scans;     ///< it will not scan; none: it cannot say so
+  Duration oldest = std::chrono::milliseconds(300);        ///< most that a stamp is ago
+  Duration conversation = std::chrono::milliseconds(300);  ///< from a connection to a first whole scan, at most
+  bool on_network = false;
+  bool whole = true;             ///< a damaged message costs its scan; otherwise a few sectors
+  std::uint64_t half_bytes = 0;  ///< of half a message, at least, that is counted as one lost; 0: not counted so
+  std::function<void(ScannerBench&, bool)> set_error = {};  ///< it reports an error; none: it has no word for it
+  std::function<void(ScannerBench&)> refuse_scans = {};     ///< it will not scan; none: it cannot say so
 };
 
 [[nodiscard]] const std::vector<ScannerKind>& scanner_kinds();

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "drivers/laser/sick.h"
+#include "firmware/robot/realtime.h"
 #include "hal/types/errors.h"
 #include "tests/drivers/data_files.h"
 #include "tests/drivers/scanner_kinds.h"
@@ -149,11 +150,27 @@ TEST_CASE("the 16 real telegrams of a TiM come over TCP as they came from it") {
     connection.step();
     const Time stamp = connection.latest().stamp;
     if (stamp == before) continue;
+    if (before == kNever) CHECK(connection.latest().range_m[0] == Approx(0.626F));  // 0272h behind the count 032Bh
     if (before != kNever) least = std::min(least, stamp - before), most = std::max(most, stamp - before);
     before = stamp;
   }
-  CHECK(connection.latest().sequence == 16);
-  CHECK(connection.latest().beam_count == 811);
+  const LaserScan& scan = connection.latest();
+  CHECK(scan.sequence == 16);
+  REQUIRE(scan.beam_count == 811);
+  CHECK(scan.first_angle_rad == Approx(-2.3561945));
+  CHECK(scan.angle_step_rad == Approx(0.0058172).epsilon(1e-4));  // 0.3333 degrees
+  CHECK(to_seconds(scan.period) == Approx(1.0 / 15.0));
+  CHECK(to_seconds(scan.sweep) == Approx(0.049995));  // 810 of 0.3333 degrees are 269.97: 0.74993 of a period
+  int hits = 0, unknown = 0;
+  std::uint64_t sum_mm = 0;
+  for (std::size_t beam = 0; beam < 811; ++beam) {
+    hits += scan.state(beam) == BeamState::kHit ? 1 : 0;
+    unknown += scan.state(beam) == BeamState::kUnknown ? 1 : 0;
+    sum_mm += static_cast<std::uint64_t>(scan.range_m[beam] * 1000.0F + 0.5F);
+  }
+  CHECK(hits == 799);
+  CHECK(unknown == 12);
+  CHECK(sum_mm == 875474);  // added up from its bytes, less the 12 beams that it says 2 for
   const ScannerHealth health = connection.health();
   CHECK(health.malformed + health.late + health.protocol.lost + health.protocol.skipped_bytes == 0);
   // The scanner's own clock put 66.6 to 66.7 ms between them, and 0.8 ms more or less into sending them.
@@ -162,14 +179,10 @@ TEST_CASE("the 16 real telegrams of a TiM come over TCP as they came from it") {
 }
 
 TEST_CASE("a connection with a thread of its own brings scans in real time and ends at once") {
-  struct RealClock final : Clock {
-    [[nodiscard]] Time now() noexcept override { return Time{std::chrono::steady_clock::now().time_since_epoch()}; }
-    void sleep_until(Time wake) noexcept override { std::this_thread::sleep_for(wake - now()); }
-  } clock;
+  SteadyClock clock;
   auto wire = std::make_unique<emulators::TcpServer>(std::uint16_t{0});
   const std::uint16_t port = wire->port();
-  const auto world = [](std::size_t, std::span<float> range_m) { std::fill(range_m.begin(), range_m.end(), 2.0F); };
-  emulators::SickServer server(std::move(wire), {}, world);
+  emulators::SickServer server(std::move(wire), {}, tests::round_room);
   const Time began = clock.now();
   Time ends;
   {

@@ -7,11 +7,11 @@
 #include <string>
 
 #include "drivers/can/can_interface.h"
-#include "hal/types/errors.h"
 #include "tests/drivers/hand_clock.h"
 #include "tests/drivers/random_bytes.h"
 #include "tests/support/allocation_guard.h"
 #include "tests/support/catch.h"
+#include "tests/support/text.h"
 
 using namespace jaywalk;
 using namespace std::chrono_literals;
@@ -38,15 +38,6 @@ can_frame error_frame(canid_t error_class, std::uint8_t controller_status) {
   frame.can_dlc = CAN_ERR_DLC;
   frame.data[1] = controller_status;
   return frame;
-}
-
-std::string refusal_of(const std::string& interface) {
-  try {
-    const auto opened = open_can(interface, {});
-  } catch (const StartupError& error) {
-    return error.what();
-  }
-  return "opened";
 }
 
 }  // namespace
@@ -165,13 +156,9 @@ TEST_CASE("one program at a time has an interface's drives, and another interfac
   {
     const BusLock lock("nocan7");
     const BusLock other("nocan8");
-    std::string said;
-    try {
-      const BusLock second("nocan7");
-    } catch (const StartupError& error) {
-      said = error.what();
-    }
-    CHECK(said.starts_with("nocan7: another program of jaywalk has the drives on this bus; end it first"));
+    CHECK(refusal_of([] {
+            return BusLock("nocan7");
+          }).starts_with("nocan7: another program of jaywalk has the drives on this bus; end it first"));
   }
   CHECK_NOTHROW(BusLock("nocan7"));  // it ended
 }
@@ -216,12 +203,12 @@ TEST_CASE("any bytes from the kernel are a frame, an error, or counted, without 
 }
 
 TEST_CASE("an interface that is not there is refused with what to do") {
-  CHECK(refusal_of("nocan9") ==
+  CHECK(refusal_of([] { return open_can("nocan9", {}); }) ==
         "nocan9: no such interface; bring it up: ip link set nocan9 up type can bitrate 500000");
 }
 
 TEST_CASE("a kernel without CAN, or an interface of another kind, is refused with what to do") {
-  const std::string said = refusal_of("lo");
+  const std::string said = refusal_of([] { return open_can("lo", {}); });
   const bool without_can = said == "lo: this kernel has no raw CAN sockets; load them: modprobe can_raw";
   const bool not_can =
       said.starts_with("lo: bind: ") && said.ends_with("; see that it is a CAN interface: ip -details link show lo");

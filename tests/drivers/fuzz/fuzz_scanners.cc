@@ -1,5 +1,3 @@
-#include "tests/drivers/fuzz/fuzz_scanners.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,6 +9,7 @@
 #include "drivers/laser/scip.h"
 #include "drivers/laser/sick.h"
 #include "drivers/ros/ros_scan.h"
+#include "tests/drivers/fuzz/fuzz_targets.h"
 
 namespace jaywalk::tests {
 
@@ -24,6 +23,13 @@ void check_scan(Heard decoding, const LaserScan& scan) {
   for (std::uint32_t beam = 0; beam < scan.beam_count; ++beam) {
     require(!std::isnan(scan.range_m[beam]) && !scan.too_near(beam));
   }
+}
+
+/// Checks a decoder that takes one message as a whole.
+void check_decoded(Heard decoding, const LaserScan& scan) {
+  require(decoding != Heard::kNothing);
+  require(decoding != Heard::kScan || scan.period > Duration{0});
+  check_scan(decoding, scan);
 }
 
 /// Filled again and again: what a refused scan leaves in it must not matter.
@@ -67,11 +73,11 @@ void fuzz_sick(wire::Bytes bytes) {
   const std::uint8_t choice = take_choice(bytes);
   const std::size_t which = (choice >> 1U) & 1U;
   const sick::Cola dialect = which == 0 ? sick::Cola::kA : sick::Cola::kB;
-  if ((choice & 1U) == 0) return check_scan(decode_scan(dialect, bytes, {}, kArrival, scan, header), scan);
+  if ((choice & 1U) == 0) return check_decoded(decode_scan(dialect, bytes, {}, kArrival, scan, header), scan);
   streams[which].begin(dialect);
   streams[which].append(bytes);
   while (const auto body = streams[which].next()) {
-    check_scan(decode_scan(dialect, *body, {}, kArrival, scan, header), scan);
+    check_decoded(decode_scan(dialect, *body, {}, kArrival, scan, header), scan);
   }
 }
 
@@ -82,7 +88,7 @@ void fuzz_scip(wire::Bytes bytes) {
   stream.clear();
   stream.append(bytes);
   while (const auto answer = stream.next()) {
-    check_scan(scip::decode_scan(*answer, {}, kArrival, scan, device_time_ms), scan);
+    check_decoded(scip::decode_scan(*answer, {}, kArrival, scan, device_time_ms), scan);
     scip::ScannerModel model;
     if (!scip::decode_model(*answer, model)) continue;
     require(model.steps_per_turn > 0 && model.period > Duration{0} && model.first_step < model.last_step);
@@ -97,6 +103,7 @@ void fuzz_ldrobot(wire::Bytes bytes) {
   with_right_checksums.clear();
   as_it_came.append(bytes);
   while (const auto packet = as_it_came.next()) {
+    require(packet->first_angle_cdeg < 36000 && packet->last_angle_cdeg < 36000);
     if (builder.add(*packet, kArrival, scan)) check_scan(Heard::kScan, scan);
   }
   // So that what lies behind the checksum is tried as well.
@@ -106,6 +113,7 @@ void fuzz_ldrobot(wire::Bytes bytes) {
     made.back() = ldrobot::crc8(wire::Bytes(made).first(made.size() - 1));
     with_right_checksums.append(made);
     while (const auto packet = with_right_checksums.next()) {
+      require(packet->first_angle_cdeg < 36000 && packet->last_angle_cdeg < 36000);
       if (builder.add(*packet, kArrival, scan)) check_scan(Heard::kScan, scan);
     }
   }
@@ -116,10 +124,10 @@ void fuzz_lms200(wire::Bytes bytes) {
   static lms200::TelegramStream stream;
   LaserScan& scan = reused_scan();
   const std::uint8_t choice = take_choice(bytes);
-  if ((choice & 1U) == 0) return check_scan(lms200::decode_scan(bytes, 38400, kArrival, scan), scan);
+  if ((choice & 1U) == 0) return check_decoded(lms200::decode_scan(bytes, 38400, kArrival, scan), scan);
   stream.clear();
   stream.append(bytes);
-  while (const auto body = stream.next()) check_scan(lms200::decode_scan(*body, 38400, kArrival, scan), scan);
+  while (const auto body = stream.next()) check_decoded(lms200::decode_scan(*body, 38400, kArrival, scan), scan);
 }
 
 /// The beginning of a message from a shared ring; the lowest bit of the first byte: infinity is free.

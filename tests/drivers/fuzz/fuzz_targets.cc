@@ -20,7 +20,6 @@
 #include "hal/types/errors.h"
 #include "hil/emulators/drive_objects.h"
 #include "tests/drivers/eds_file.h"
-#include "tests/drivers/fuzz/fuzz_scanners.h"
 
 namespace jaywalk::tests {
 
@@ -59,8 +58,9 @@ void fuzz_canopen(wire::Bytes bytes) {
   emulators::DriveObjects objects;
   canopen::WheelAxis axis({.node = 5, .per_rad = 100.0}, std::chrono::milliseconds(50));
   each_frame(bytes, 0x7FF, [&](const CanFrame& frame) {
-    if (canopen::emergency_in(frame, 5)) require(frame.id == 0x085U && frame.size == 8);
-    if (canopen::heartbeat_in(frame, 5)) require(frame.id == 0x705U && frame.size > 0);
+    const auto node = static_cast<std::uint8_t>(frame.id % 0x80U);
+    if (canopen::emergency_in(frame, node)) require(frame.id == 0x080U + node && frame.size == 8);
+    if (canopen::heartbeat_in(frame, node)) require(frame.id == 0x700U + node && frame.size > 0);
     axis.take({frame, kArrival});
     if (const auto answer = objects.answer(5, frame)) require(answer->id == 0x585 && answer->size == 8);
   });

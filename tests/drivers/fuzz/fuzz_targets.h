@@ -1,5 +1,8 @@
 #pragma once
+#include <cstdlib>
+
 #include "drivers/wire/byte_reader.h"
+#include "hal/types/time.h"
 
 namespace jaywalk::tests {
 
@@ -12,5 +15,19 @@ struct FuzzTarget {
 /// Every decoder of drivers/ that takes bytes from outside.
 inline constexpr std::size_t kFuzzTargets = 12;
 [[nodiscard]] const FuzzTarget& fuzz_target(std::size_t index);
+
+inline constexpr Time kArrival{std::chrono::seconds(10)};
+
+/// Ends the process, as a fuzzer wants it, where a promise is broken.
+inline void require(bool holds) {
+  if (!holds) std::abort();
+}
+
+void fuzz_sick(wire::Bytes bytes);
+void fuzz_scip(wire::Bytes bytes);
+void fuzz_ldrobot(wire::Bytes bytes);
+void fuzz_lms200(wire::Bytes bytes);
+void fuzz_ros(wire::Bytes bytes);
+void fuzz_scanner_protocol(wire::Bytes bytes);
 
 }  // namespace jaywalk::tests
