@@ -20,7 +20,7 @@
 
 namespace jaywalk::campaign {
 
-// As campaign.json has them, for nlohmann::json.
+// Fields of these structs in campaign.json, by name (nlohmann::json).
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(PlannedRun, row, values, scenario, seed, folder, cruise_mps, command)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ReportedExperiment, name, title, axes, scenarios, runs)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ReportedCampaign, title, program, experiments)

@@ -24,7 +24,8 @@ using Qos = std::unique_ptr<dds_qos_t, decltype(&dds_delete_qos)>;
 [[nodiscard]] dds_entity_t make_reader(dds_entity_t participant, const dds_topic_descriptor_t& type,
                                        const std::string& topic, const Qos& qos);
 
-/// Of a sample that came by now; `ours`: by the loop's clock.
+/// Arrival of a sample that was taken just now: `ours` (by the loop's clock), the wall clock's time and the sender's
+/// stamp.
 [[nodiscard]] exchange::Arrival arrival_of(const dds_sample_info_t& about, Time ours = kNever);
 
 /// `use(sample, about)` for each that waits at a reader of the type T.

@@ -26,9 +26,8 @@ class ByteFile {
 
   /// Throws StartupError where the file ends before, or more than kMostRecordBytes are asked for.
   [[nodiscard]] std::string read(std::uint64_t at, std::uint64_t bytes);
-  /// What a chunk at `at` unpacks to, `bytes` exactly. `method`, as the formats name them: "zstd" or "lz4" (frames),
-  /// "bz2",
-  /// "" or "none" (not packed). Throws StartupError for any other, and where the chunk is damaged.
+  /// Contents of the compressed chunk at file offset `at`, `bytes` long. `method`: "zstd" or "lz4" (frames), "bz2", ""
+  /// or "none" (not compressed). Throws StartupError for any other, and where the chunk is damaged.
   [[nodiscard]] std::string unpacked(std::uint64_t at, std::string_view method, std::string_view packed,
                                      std::uint64_t bytes) const;
   [[nodiscard]] std::uint64_t size() const { return size_; }

@@ -31,7 +31,7 @@ using SpatialFrame = Eigen::Transform<double, 3, Eigen::Isometry>;
 }
 
 struct StampedMessage {
-  Time stamp = kNever;     ///< of the header; 0 where nobody set it
+  Time stamp = kNever;     ///< the header's; 0 where the sender set none
   std::size_t number = 0;  ///< of its topic's messages, from 1
   Time logged = kNever;    ///< when it was recorded
 };
@@ -67,9 +67,10 @@ struct TransformMessage {
 /// Frames by the frame that each lies in, as tf has them: a forest.
 class FrameTree {
  public:
-  /// Ignores a NaN. Names may begin with a slash. A frame whose transform is not as before is one that moves.
+  /// Adds a transform; one with a NaN is ignored. Frame names may begin with a slash. A frame counts as moving as soon
+  /// as two of its transforms differ.
   void add(const TransformMessage& transform);
-  /// base_from_frame, along the tree; nothing where no way joins them, or one of its frames moves.
+  /// Returns base_from_frame along the tree; nothing where no chain of frames joins the two, or one in it moves.
   [[nodiscard]] std::optional<SpatialFrame> find(const std::string& base, const std::string& frame) const;
 
   /// The name without a slash before it, as ROS 1 has some.

@@ -44,7 +44,7 @@ void transform(CdrWriter& out, Time time, const std::string& from, const std::st
   out.text(to);
   pose(out, p);
 }
-/// As REP 117 has it.
+/// Range of a beam in a LaserScan message, m: infinity where nothing is within reach, NaN without a reading (REP 117).
 double range_of(const LaserScan& scan, std::size_t beam) {
   if (scan.is_hit(beam)) return static_cast<double>(scan.range_m[beam]);
   return scan.found_nothing(beam) ? std::numeric_limits<double>::infinity() : std::numeric_limits<double>::quiet_NaN();

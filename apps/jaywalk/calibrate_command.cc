@@ -151,7 +151,8 @@ class ArmedSession {
   }
 
  private:
-  /// What the kernel does not permit of what this thread and its process wish.
+  /// Makes this thread real-time and locks its memory, as the robot file asks. Returns a line for each refusal by the
+  /// kernel.
   [[nodiscard]] std::vector<std::string> enter_fully() const {
     std::vector<std::string> refused;
     if (file_.realtime.lock_memory) refused = lock_memory();

@@ -237,8 +237,8 @@ bad input or set-up. `jaywalk COMMAND --help` has an example too; `jaywalk --man
   return page;
 }
 
-/// What a shell offers to complete: commands, options, and the words of options that take one of a few. Throws
-/// StartupError for another shell.
+/// Completion script for a shell ("bash", "zsh", ...): commands, options, and the words that an option may take. Throws
+/// StartupError for an unknown shell.
 std::string completion_for(const CLI::App& app, const std::string& shell) {
   if (shell == "bash") return bash_completion(app);
   if (shell == "zsh") return zsh_completion(app);

@@ -25,7 +25,7 @@ struct Scene {
   float radius = 0.0F;  ///< of the circle about the robot
 };
 
-/// From a place to a track, m.
+/// Vector from (x, y) to the track's position, m, in the map.
 [[nodiscard]] inline Eigen::Vector2f offset_to(const Track& track, float x, float y) noexcept {
   return {static_cast<float>(track.position_in_map.x) - x, static_cast<float>(track.position_in_map.y) - y};
 }

@@ -11,7 +11,8 @@
 
 namespace jaywalk {
 
-/// A robot whose drives are armed, for motions without the control loop. All of it outlives the motion.
+/// Robot with armed drives that a set-up motion moves without the control loop. What it refers to must outlive the
+/// motion.
 struct ArmedRobot {
   const RobotModel& model;
   DriveBase& drive;

@@ -7,6 +7,7 @@
 
 #include "apps/report/distribution.h"
 #include "bench/command_line.h"
+#include "bench/figure_table.h"
 #include "bench/tracking/crowd.h"
 #include "hal/sim/social_walkers.h"
 
@@ -65,11 +66,6 @@ Distribution social_steps_ms(std::uint32_t steps) {
   return took_ms;
 }
 
-void row(const char* what, const Distribution& figure) {
-  std::printf("| %-30s | %8.3f | %8.3f | %8.3f |\n", what, figure.quantile(0.5), figure.quantile(0.99),
-              figure.quantile(1.0));
-}
-
 }  // namespace
 }  // namespace jaywalk::bench
 
@@ -80,12 +76,12 @@ int main(int argc, char** argv) {
   app.add_option("--scans", scans, "how many to time")->check(CLI::Range(1, 1000000))->capture_default_str();
   return run(app, argc, argv, [&] {
     const Figures figures = measure(scans);
-    std::printf("| %-30s | %8s | %8s | %8s |\n|---|---|---|---|\n", "a scan", "p50", "p99", "max");
-    row("localisation, ms", figures.localizing_ms);
-    row("tracking, ms", figures.tracking_ms);
-    row("both, ms", figures.seeing_ms);
-    row("a step of 64 social movers, ms", social_steps_ms(scans));
-    row("tracks", figures.tracks);
-    row("moving ones", figures.moving);
+    print_head("a scan");
+    print_row("localisation, ms", figures.localizing_ms);
+    print_row("tracking, ms", figures.tracking_ms);
+    print_row("both, ms", figures.seeing_ms);
+    print_row("a step of 64 social movers, ms", social_steps_ms(scans));
+    print_row("tracks", figures.tracks);
+    print_row("moving ones", figures.moving);
   });
 }

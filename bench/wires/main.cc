@@ -7,6 +7,7 @@
 
 #include "apps/report/distribution.h"
 #include "bench/command_line.h"
+#include "bench/figure_table.h"
 #include "firmware/backends.h"
 #include "hil/far_end/simulated_robot.h"
 
@@ -68,10 +69,6 @@ Figures measure(const Options& options) {
   return figures;
 }
 
-void row(const char* what, const Distribution& figure) {
-  std::printf("| %-52s | %8.3f | %8.3f | %8.3f |\n", what, figure.quantile(0.5), figure.quantile(0.99), figure.max());
-}
-
 }  // namespace
 }  // namespace jaywalk::bench
 
@@ -86,9 +83,9 @@ int main(int argc, char** argv) {
   app.add_option("--out", options.out, "Folder for what the run leaves")->capture_default_str();
   return run(app, argc, argv, [&] {
     const Figures figures = measure(options);
-    std::printf("| %-52s | %8s | %8s | %8s |\n|---|---|---|---|\n", "ms", "p50", "p99", "max");
-    row("from when a tick was due to its start", figures.waking_ms);
-    row("from a tick's start to its last frame", figures.tick_to_frame_ms);
-    row("from a scan's last byte to the first frame that used it", figures.scan_to_frame_ms);
+    print_head("ms");
+    print_row("from when a tick was due to its start", figures.waking_ms);
+    print_row("from a tick's start to its last frame", figures.tick_to_frame_ms);
+    print_row("from a scan's last byte to the first frame that used it", figures.scan_to_frame_ms);
   });
 }

@@ -44,7 +44,7 @@ class Lms200Protocol final : public ScannerProtocol {
 
  private:
   std::uint32_t baud_;
-  std::size_t at_ = 0;  ///< the command that is said next, or whose answer is awaited
+  std::size_t at_ = 0;  ///< index of the set-up command to send next, or whose answer is pending
   TelegramStream stream_;
   std::uint64_t warned_ = 0;
 };

@@ -93,7 +93,7 @@ class SickProtocol final : public ScannerProtocol {
   Cola dialect_;
   ScannerModel model_;
   ColaCommand said_;
-  std::size_t at_ = 0;  ///< the command that is said next, or whose answer is awaited
+  std::size_t at_ = 0;  ///< index of the set-up command to send next, or whose answer is pending
   bool tried_ = false, understood_ = false;
   ColaStream stream_;
   DeviceClock device_clock_{std::chrono::microseconds(1), std::uint64_t{1} << 32U};

@@ -72,8 +72,8 @@ struct AxisReport {
 /// set here and at each enabling, and not read back; a wheel that turns fails the proof.
 class WatchdogProof {
  public:
-  /// Of the axis `node`, whose watchdog is to expire `least` to `most` after the last command; the first frames are due
-  /// at once.
+  /// Begins the proof of axis `node`: its watchdog must expire `least` to `most` after the last command. The first
+  /// frames are due at once.
   void begin(std::uint8_t node, Duration least, Duration most, Time now) noexcept;
   [[nodiscard]] std::span<const CanFrame> step(Time now, const AxisReport& axis) noexcept;
   [[nodiscard]] ProofResult result() const noexcept { return result_; }

@@ -57,8 +57,8 @@ using AddCommands = std::function<void(CLI::App& app, int& exit_code)>;
 /// its exit code in `exit_code`; all outlive the parsing.
 void add_robot_commands(CLI::App& app, int& exit_code, const MakeObserver& make_observer);
 
-/// An option whose value is one of a few words. `chosen` holds the default. Help and errors show the words, which the
-/// parser's own checks mix with the values behind them. Parsing throws StartupError for any other word.
+/// Adds an option that takes one of the words in `choices`. `chosen` holds the default. Help and errors list the words
+/// alone; CLI11's own check would list the values, too. Parsing throws StartupError for any other word.
 template <class T>
 void add_choice(CLI::App& command, const std::string& option, T& chosen,
                 const std::vector<std::pair<std::string, T>>& choices, const std::string& about) {

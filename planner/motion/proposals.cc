@@ -123,10 +123,10 @@ void TrajectoryProposals::brake(int n, Trajectory& out) const noexcept {
   constexpr Command kStop{0.0F, 0.0F, true};
   out.proposal = Proposal::kBrake;
   RobotState robot = s_.start;
-  constexpr int kWaits = std::ssize(kBrakesFor);
-  if (n >= kWaits) {
+  const int after_k = n - static_cast<int>(std::ssize(kBrakesFor));
+  if (after_k >= 0) {
     follow_from(robot, 0, s_.body.bounds.speed, out);
-    const int after = kBrakesAfter[n - kWaits];
+    const int after = kBrakesAfter[after_k];
     return std::fill(out.commands.begin() + after, out.commands.end(), kStop);
   }
   const int wait = kBrakesFor[n];
@@ -135,12 +135,9 @@ void TrajectoryProposals::brake(int n, Trajectory& out) const noexcept {
 }
 
 void TrajectoryProposals::arc(int n, Trajectory& out) const noexcept {
-  constexpr int kForwards = std::ssize(kForward);
-  const int row = n / kTurnCount;
+  const int row = n / kTurnCount, back = row - static_cast<int>(std::ssize(kForward));
   const MotionBounds& b = s_.body.bounds;
-  const float v = constant_ > 0.0F  ? constant_
-                  : row < kForwards ? kForward[row] * b.speed
-                                    : -kBack[row - kForwards] * b.back;
+  const float v = constant_ > 0.0F ? constant_ : back < 0 ? kForward[row] * b.speed : -kBack[back] * b.back;
   out.proposal = v < 0.0F ? Proposal::kArcBack : Proposal::kArc;
   out.commands.fill(permitted({v, kTurns[n % kTurnCount] * b.turn}));
 }
@@ -148,10 +145,11 @@ void TrajectoryProposals::arc(int n, Trajectory& out) const noexcept {
 void TrajectoryProposals::arc_then_follow(int n, Trajectory& out) const noexcept {
   const MotionBounds& b = s_.body.bounds;
   const bool back = constant_ <= 0.0F && n >= kBentForward;
-  constexpr int kBendCount = std::ssize(kBends);
   const int row = (back ? n - kBentForward : n) / kTurnCount;
-  const float v = constant_ > 0.0F ? constant_ : back ? -kBack[row] * b.back : kForward[row / kBendCount] * b.speed;
-  const int steps = back ? kBends[0] : kBends[row % kBendCount];
+  const float v = constant_ > 0.0F ? constant_
+                  : back           ? -kBack[row] * b.back
+                                   : kForward[row / std::ssize(kBends)] * b.speed;
+  const int steps = back ? kBends[0] : kBends[row % std::ssize(kBends)];
   out.proposal = back ? Proposal::kBackThenFollow : Proposal::kArcThenFollow;
   RobotState robot = s_.start;
   drive_out(robot, 0, steps, permitted({v, kTurns[n % kTurnCount] * b.turn}), out);

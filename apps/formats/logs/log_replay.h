@@ -46,7 +46,7 @@ class LogReplay final : private Clock {
   std::vector<WheelState> trail_;
   std::unique_ptr<TickRecord> shown_;  ///< newest readings
   RecordedHal devices_;
-  std::size_t scans_seen_ = 0, wheels_seen_ = 0;  ///< readings whose time has come
+  std::size_t scans_seen_ = 0, wheels_seen_ = 0;  ///< number of readings that are no later than the clock
 };
 
 }  // namespace jaywalk::sim

@@ -213,7 +213,7 @@ class Playback {
   [[nodiscard]] std::vector<DrivenPose> scans(std::size_t count) const;
   /// The trail at each step; its first point before it begins, its last after it ends. `trail` has a point.
   [[nodiscard]] std::vector<Vec2> positions(const Trail& trail) const;
-  /// From when to when the trail is there, as shares of the playback in [0, 1].
+  /// Begin and end of the trail as shares of the playback, each in [0, 1].
   [[nodiscard]] std::pair<double, double> stay(const Trail& trail) const;
 
  private:
