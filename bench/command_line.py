@@ -26,14 +26,10 @@ def seeds_of(text):
     return seeds
 
 
-def require_built(program):
-    if not program.exists():
-        refuse(f"{program}: not there", "build the project first (README.md)")
-
-
 def said_by(program, *arguments):
     """What a program prints."""
-    require_built(program)
+    if not program.exists():
+        refuse(f"{program}: not there", "build the project first (README.md)")
     done = subprocess.run([program, *map(str, arguments)], capture_output=True, text=True)
     if done.returncode != 0:
         refuse(f"{program.name} {' '.join(map(str, arguments))}: exit {done.returncode}", done.stderr.strip() or "it said nothing")

@@ -10,7 +10,7 @@ import argparse
 import pathlib
 
 from command_line import seeds_of
-from world_kinds import buildings, crossings, drawn, encounters, given, walked
+from world_kinds import buildings, drawn, encounters, given, walked
 from world_kinds.folder import Folder
 
 KINDS = {  # what writes it, its seeds by default, what stays of runs: tracks are scored with all of them
@@ -20,7 +20,7 @@ KINDS = {  # what writes it, its seeds by default, what stays of runs: tracks ar
     "rooms": (drawn.rooms, "601-700", "failures"),
     "passages": (walked.passages, "302-303", "failures"),
     "people": (walked.people, "1", "all"),
-    "crossings": (crossings.crossings, "501-525", "failures"),
+    "crossings": (walked.crossings, "501-525", "failures"),
     "encounters": (encounters.encounters, "831", "failures"),
     "dynabarn": (walked.dynabarn, "1", "all"),
     "dynabarn_loops": (walked.dynabarn_loops, "701", "failures"),

@@ -2,48 +2,29 @@
 #include <type_traits>
 
 #include "cuda/cuda_cost_to_go.h"
-#include "cuda/kernels.h"
 #include "planner/cost_to_go/cell_graph.h"
 #include "planner/cost_to_go/pose_guide.h"
-#include "planner/cost_to_go/pose_price.h"
 
 namespace jaywalk {
 namespace {
 
-/// Costs of all nodes, and where ways end: beyond that of a node, negative: nowhere.
+/// Costs of all nodes, where ways end: beyond that of a node, negative: nowhere, and the steps between nodes.
 template <class Steps>
-struct Ends {
+struct Graph {
   static constexpr std::uint32_t kNone = Steps::kNone, kSpan = Steps::kSpan;
+  static constexpr int kThreads = 16;
   LoweredCosts costs;
   std::int32_t robot;
   std::uint32_t beyond;
+  Steps steps;
 
   [[nodiscard]] __device__ std::uint32_t limit() const {
     return Steps::end(robot < 0 ? kNone : costs.peek(robot), beyond);
   }
-};
-
-/// Poses and the moves between them.
-struct Poses : Ends<field::PoseSteps> {
-  static constexpr int kThreads = 16;
-  field::PoseSteps steps;
-
-  [[nodiscard]] __device__ std::int32_t count(std::int32_t pose) const { return steps.count(pose); }
+  [[nodiscard]] __device__ std::int32_t count(std::int32_t n) const { return steps.count(n); }
   template <class May, class Visit>
-  __device__ void step(std::int32_t pose, std::int32_t k, const May& may, const Visit& visit) const {
-    steps.step(pose, k, may, visit);
-  }
-};
-
-/// Cells and the steps to sixteen neighbours.
-struct Cells : Ends<field::CellSteps> {
-  static constexpr int kThreads = 16;
-  field::CellSteps steps;
-
-  [[nodiscard]] __device__ static std::int32_t count(std::int32_t) { return field::kCellSteps; }
-  template <class May, class Visit>
-  __device__ void step(std::int32_t cell, std::int32_t k, const May& may, const Visit& visit) const {
-    steps.step(cell, field::cell_step(k), may, visit);
+  __device__ void step(std::int32_t n, std::int32_t k, const May& may, const Visit& visit) const {
+    steps.step(n, k, may, visit);
   }
 };
 
@@ -76,17 +57,15 @@ struct SowCell {
   }
 };
 
-template <class Stage>
-void launch_visits(CudaDevice& device, const Stage& stage, std::int32_t n) noexcept {
-  device.launch(visit<Stage>, (n + kVisitThreads - 1) / kVisitThreads, kVisitThreads, stage, 1, n);
-}
-
 constexpr std::size_t kPoses = PoseLattice::kPoses, kRooms = 256;
 
+/// Null for null.
 template <class T>
-void copy_in(CudaDevice& device, const Shared<T>& to, const T* from, std::size_t n) noexcept {
+T* copy_in(CudaDevice& device, const Shared<T>& to, const T* from, std::size_t n) noexcept {
+  if (from == nullptr) return nullptr;
   std::memcpy(to.host, from, n * sizeof(T));
   device.copy_in(to, n);
+  return to.device;
 }
 
 }  // namespace
@@ -111,43 +90,37 @@ CudaCostToGo::CudaCostToGo(int device, std::chrono::milliseconds limit, std::int
   piles_.told = told_.device;
 }
 
-template <class Graph, class T>
-bool CudaCostToGo::read_settled(const Graph& graph, const Shared<T>& settled, std::size_t n) noexcept {
-  device_.launch(settle_piles<Graph>, 1, kPileThreads, graph, piles_);
-  if constexpr (std::is_same_v<Graph, Poses>)
-    launch_visits(device_, ReapPose{wide_cost_, settled.device}, PoseLattice::kPoses);
+template <class G, class T>
+bool CudaCostToGo::read_settled(const G& graph, const Shared<T>& settled, std::size_t n) noexcept {
+  device_.launch(settle_piles<G>, 1, kPileThreads, graph, piles_);
+  if constexpr (std::is_same_v<T, std::uint16_t>)
+    device_.launch_visits(ReapPose{wide_cost_, settled.device}, 1, PoseLattice::kPoses);
   device_.copy_out(settled, n);
   device_.copy_out(told_, 1);
   return device_.wait() && told_.host->full == 0;
 }
 
-void CudaCostToGo::put_in(const field::PoseCosts& poses) noexcept {
-  const auto points = static_cast<std::size_t>(poses.look.points);
-  copy_in(device_, nodes_, poses.look.nodes, kNodes);
-  copy_in(device_, places_, poses.look.places, kLooks * points);
-  copy_in(device_, radius_, poses.look.radius, points);
-  copy_in(device_, rate_of_room_, poses.rates.of_room, kRooms);
-  if (poses.rates.dearer != nullptr) copy_in(device_, dearer_, poses.rates.dearer, kPoses);
-  if (poses.steps.unseen != nullptr) copy_in(device_, unseen_, poses.steps.unseen, kPoses);
-  copy_in(device_, pose_cost_, poses.cost, kPoses);
-  copy_in(device_, moves_, poses.steps.moves, 1);
-  device_.set_bytes(told_.device, 0, 1);
-}
-
 bool CudaCostToGo::settle(const field::PoseCosts& poses) noexcept {
   constexpr std::int32_t kCellPoses = PoseLattice::kHeadings * PoseLattice::kSide * PoseLattice::kSide;
-  if (static_cast<std::size_t>(poses.look.points) > kMostPoints || !begins()) return false;
-  put_in(poses);
-  const field::PoseLook look{nodes_.device,     places_.device, radius_.device,
-                             poses.look.points, room_.device,   shift_.device};
-  const field::PoseRates rates{rate_of_room_.device, poses.rates.dearest,
-                               room_.device,         poses.rates.dearer == nullptr ? nullptr : dearer_.device,
-                               poses.robot,          pose_rate_.device};
-  launch_visits(device_, look, kCellPoses);
-  launch_visits(device_, SowPose{rates, pose_cost_.device, wide_cost_, piles_}, PoseLattice::kPoses);
+  const auto points = static_cast<std::size_t>(poses.look.points);
+  if (points > kMostPoints || !begins()) return false;
+  const field::PoseLook look{copy_in(device_, nodes_, poses.look.nodes, kNodes),
+                             copy_in(device_, places_, poses.look.places, kLooks * points),
+                             copy_in(device_, radius_, poses.look.radius, points),
+                             poses.look.points,
+                             room_.device,
+                             shift_.device};
+  const field::PoseRates rates{
+      copy_in(device_, rate_of_room_, poses.rates.of_room, kRooms), poses.rates.dearest, room_.device,
+      copy_in(device_, dearer_, poses.rates.dearer, kPoses),        poses.robot,         pose_rate_.device};
+  const field::PoseSteps steps{copy_in(device_, moves_, poses.steps.moves, 1), pose_rate_.device,
+                               copy_in(device_, unseen_, poses.steps.unseen, kPoses)};
+  const std::uint16_t* const given = copy_in(device_, pose_cost_, poses.cost, kPoses);
+  device_.set_bytes(told_.device, 0, 1);
+  device_.launch_visits(look, 1, kCellPoses);
+  device_.launch_visits(SowPose{rates, given, wide_cost_, piles_}, 1, PoseLattice::kPoses);
   device_.copy_out(room_, kPoses), device_.copy_out(shift_, kPoses), device_.copy_out(pose_rate_, kPoses);
-  const Poses graph{{{wide_cost_, 1}, poses.robot, poses.beyond},
-                    {moves_.device, pose_rate_.device, poses.steps.unseen == nullptr ? nullptr : unseen_.device}};
+  const Graph<field::PoseSteps> graph{{wide_cost_, 1}, poses.robot, poses.beyond, steps};
   if (!read_settled(graph, pose_cost_, kPoses)) return false;
   std::memcpy(poses.look.room, room_.host, kPoses);
   std::memcpy(poses.look.shift, shift_.host, kPoses);
@@ -161,9 +134,9 @@ bool CudaCostToGo::settle(const field::CellCosts& cells) noexcept {
   if (!begins()) return false;
   copy_in(device_, cells_, cells.nodes, n);
   device_.set_bytes(told_.device, 0, 1);
-  launch_visits(device_, SowCell{cells_.device, piles_}, static_cast<std::int32_t>(n));
-  const Cells graph{{{&cells_.device->cost, 2}, cells.robot, cells.beyond},
-                    {cells_.device, cells.side + 2 * field::CellGraph::kRing}};
+  device_.launch_visits(SowCell{cells_.device, piles_}, 1, static_cast<std::int32_t>(n));
+  const Graph<field::CellSteps> graph{
+      {&cells_.device->cost, 2}, cells.robot, cells.beyond, {cells_.device, cells.side + 2 * field::CellGraph::kRing}};
   if (!read_settled(graph, cells_, n)) return false;
   std::memcpy(cells.nodes, cells_.host, n * sizeof *cells.nodes);
   return true;

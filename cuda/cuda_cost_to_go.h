@@ -11,7 +11,6 @@ class CudaCostToGo final : public field::CostSettler {
   /// Device and limit as CudaDevice has them, and throws like it.
   CudaCostToGo(int device, std::chrono::milliseconds limit, std::int32_t max_side);
   [[nodiscard]] bool is_ready() noexcept override { return device_.is_ready(); }
-  [[nodiscard]] bool has_failed() const noexcept override { return device_.has_failed(); }
   [[nodiscard]] const char* failure() const noexcept override { return device_.failure(); }
   [[nodiscard]] double took_ms() const noexcept override { return device_.took_ms(); }
   [[nodiscard]] const char* name() const noexcept override { return "cuda"; }
@@ -21,7 +20,6 @@ class CudaCostToGo final : public field::CostSettler {
   [[nodiscard]] const Piles::Told& told() const noexcept { return *told_.host; }
 
  private:
-  void put_in(const field::PoseCosts& poses) noexcept;
   /// False: the device failed, or a pile was full.
   template <class Graph, class T>
   [[nodiscard]] bool read_settled(const Graph& graph, const Shared<T>& settled, std::size_t n) noexcept;

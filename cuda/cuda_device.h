@@ -28,6 +28,21 @@ struct Shared {
   T* device = nullptr;
 };
 
+inline constexpr int kVisitThreads = 256;  ///< of a block: enough of them for any processor, few enough to spread
+
+/// Visit k of `n`, in rows of `width`, a power of two: a stage of cells is told column and row, another one k.
+template <class Stage>
+__global__ void __launch_bounds__(kVisitThreads)
+    visit(const __grid_constant__ Stage stage, std::int32_t width, std::int32_t n) {
+  const auto k = static_cast<std::int32_t>(blockIdx.x * kVisitThreads + threadIdx.x);
+  if (k >= n) return;
+  if constexpr (requires { stage(k, k); }) {
+    stage(k & (width - 1), k >> (31 - __clz(width)));
+  } else {
+    stage(k);
+  }
+}
+
 class CudaDevice {
  public:
   /// What has not ended by `limit` has failed. Throws std::runtime_error with the driver's own words.
@@ -86,6 +101,11 @@ class CudaDevice {
     config.gridDim = dim3(static_cast<unsigned>(blocks)), config.blockDim = dim3(static_cast<unsigned>(threads));
     config.stream = stream_;
     if (launched_ == cudaSuccess) launched_ = cudaLaunchKernelEx(&config, kernel, arguments...);
+  }
+  /// A stage, a thread a visit, as visit() has them.
+  template <class Stage>
+  void launch_visits(const Stage& stage, std::int32_t width, std::int32_t n) noexcept {
+    launch(visit<Stage>, (n + kVisitThreads - 1) / kVisitThreads, kVisitThreads, stage, width, n);
   }
   /// Waits until all since begin() has ended or its time is up. False: it failed; nothing more runs until begin().
   [[nodiscard]] bool wait() noexcept;

@@ -1,7 +1,6 @@
 #include "drivers/wired_drive.h"
 
 #include <algorithm>
-#include <cmath>
 #include <span>
 
 #include "drivers/arcos/arcos_base.h"

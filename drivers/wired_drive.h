@@ -7,7 +7,6 @@
 #include <limits>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "drivers/can/can_bus.h"
@@ -48,28 +47,9 @@ class WiredDrive : public DriveBase {
   virtual void disarm() noexcept = 0;
 };
 
-/// A second way to the same wheels, for a thread that has nothing to do with the loop's.
-class EmergencyBrake {
- public:
-  virtual ~EmergencyBrake() = default;
-  /// Tells the drives to stop as fast as they were set to; does not wait.
-  virtual void brake() noexcept = 0;
-};
-
-/// Frames that tell the drives to stop, over a place of its own on their bus.
-class FrameBrake final : public EmergencyBrake {
- public:
-  /// `bus` outlives it and takes frames from the thread that brakes.
-  FrameBrake(CanBus& bus, std::vector<CanFrame> frames) noexcept : bus_(bus), frames_(std::move(frames)) {}
-  /// Ignores whether a frame is taken: there is no third way, and it is said again as long as it has to be.
-  void brake() noexcept override {
-    for (const CanFrame& frame : frames_) static_cast<void>(bus_.send(frame));
-  }
-
- private:
-  CanBus& bus_;
-  std::vector<CanFrame> frames_;
-};
+/// A second way to the same wheels, for a thread that has nothing to do with the loop's: tells the drives to stop as
+/// fast as they were set to, and does not wait.
+using EmergencyBrake = std::function<void()>;
 
 /// One wheel's drive on a CAN bus.
 struct CanAxis {

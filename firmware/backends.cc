@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "drivers/wire/thread_without_signals.h"
-#include "hal/types/errors.h"
 #include "planner/cost_to_go/fallback_planner.h"
 #include "planner/tracking/tracker.h"
 
@@ -13,6 +12,7 @@
 #endif
 #if JAYWALK_HAS_CUDA
 #include "cuda/cuda_planner.h"
+#include "hal/types/errors.h"
 #endif
 
 namespace jaywalk {

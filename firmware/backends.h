@@ -1,6 +1,5 @@
 #pragma once
-// Which executors this build has, and which one a run gets. The only file that knows, but for
-// mode paper's (apps/rivals/paper_mode.h).
+// Executors that this build has, and the one that a run gets; mode paper's: apps/rivals/paper_mode.h.
 #include <atomic>
 #include <memory>
 #include <string>
@@ -22,11 +21,9 @@ struct ChosenPlanner {
 /// that have not the CPU's bits are a reason not to take it. One that fails while it plans gives way to the CPU
 /// (FallbackPlanner). `device`: CUDA's number. Throws StartupError where kCuda cannot be had.
 [[nodiscard]] ChosenPlanner make_planner(const PlannerConfig& config, Backend backend, int device = 0);
-/// The planner with the setup's configuration, backend and device; its own make_planner, where it has one. Throws
-/// StartupError for mode paper without.
+/// The setup's planner: of its own make_planner where it has one. Throws StartupError for mode paper without.
 [[nodiscard]] ChosenPlanner make_planner(const ControlSetup& setup);
-/// A device's planner, backed by the CPU's, or that one alone where there is none. Throws StartupError where kCuda
-/// cannot be had.
+/// A device's planner backed by the CPU's, or that one alone. Throws StartupError where kCuda cannot be had.
 [[nodiscard]] ChosenPlanner backed(Backend backend, std::unique_ptr<Planner> device, std::unique_ptr<Planner> cpu,
                                    const std::string& why_not_cuda);
 /// Throws StartupError: a device was asked for and cannot be had.
@@ -44,16 +41,14 @@ struct ChosenPlanner {
 /// An empty map, as large as the loop's.
 [[nodiscard]] EvidenceMap map_for(const ControlSetup& setup);
 
-/// Any planner in a thread of its own, so that a plan that takes long holds up no tick. One request at a time: while
-/// it is being answered is_busy() says so, and the loop asks again with its next scan.
+/// Any planner in a thread of its own: a long plan holds up no tick. While it answers one request it is_busy().
 class PlannerThread final : public Planner {
  public:
   /// Takes the memory for a copy of the map as large as the loop's. `observer`, told of each plan, outlives it.
   PlannerThread(std::unique_ptr<Planner> planner, const EvidenceMap& map, TickObserver& observer);
   ~PlannerThread() override;
 
-  /// Copies the request, of the map what has changed since the last one, and returns. Not to be called while busy. The
-  /// map is always the same object.
+  /// Copies the request, of the map (always the same object) what has changed. Not to be called while busy.
   void submit(const PlanRequest& request) noexcept override;
   [[nodiscard]] bool is_busy() const noexcept override { return busy_.load(std::memory_order_acquire); }
   [[nodiscard]] const Plan& collect() noexcept override { return plans_.latest(); }

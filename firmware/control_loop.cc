@@ -9,15 +9,6 @@
 namespace jaywalk {
 namespace {
 
-SupervisorConfig supervisor_config(const ControlSetup& setup) {
-  return {.model = setup.model,
-          .tick = setup.tick(),
-          .needs_wheels = setup.wheels,
-          .judges_motion = setup.judges_motion && setup.wheels && setup.applies_verdict(),
-          .latches_all = setup.wired,
-          .proves_wheels = setup.wired && setup.judges_motion && setup.wheels};
-}
-
 std::string recording_in(const RunParts& parts) { return (parts.place() / "recording.jwr").string(); }
 
 /// A known map is in the head of every part.
@@ -36,13 +27,16 @@ ControlLoop::ControlLoop(const ControlSetup& setup, Hal hal, Planner& planner, R
       hal_(hal),
       planner_(planner),
       recorder_(recorder),
-      speed_zones_(setup.zones, setup.model),
       estimator_(setup),
       motion_(setup.make_motion(setup.motion())),
       latency_(setup.model.drive),
       known_walls_(setup.model.footprint),
-      supervisor_(supervisor_config(setup)),
-      diff_drive_(setup.model.drive),
+      supervisor_({.model = setup.model,
+                   .tick = setup.tick(),
+                   .needs_wheels = setup.wheels,
+                   .judges_motion = setup.judges_motion && setup.wheels && setup.applies_verdict(),
+                   .latches_all = setup.wired,
+                   .proves_wheels = setup.wired && setup.judges_motion && setup.wheels}),
       plan_(&planner.collect()) {
   const std::size_t there = 1 + hal.other_lasers.size(), wanted = setup.model.lasers().size();
   if (there != wanted)
@@ -90,7 +84,7 @@ void ControlLoop::take_plan(TickRecord& t) noexcept {
 }
 
 void ControlLoop::ask(TickRecord& t) noexcept {
-  zone_speed_ = speed_zones_.at(t.pose.map_from_robot.position());
+  zone_speed_ = motion::zone_speed(setup_.zones, setup_.model, t.pose.map_from_robot.position());
   const motion::World world = this->world(t);
   const motion::Intent intent = this->intent(t);
   motion_->observe(world, intent);
@@ -113,7 +107,7 @@ void ControlLoop::permit(TickRecord& t) noexcept {
 }
 
 void ControlLoop::send(TickRecord& t) noexcept {
-  t.command = diff_drive_.wheel_speeds(driven_, t.now);
+  t.command = wheel_speeds(setup_.model.drive, driven_, t.now);
   hal_.drive.command(t.command);
   t.took = hal_.clock.now() - t.now;
   latency_.add(t.now, t.took, t.wheels, t.command);
@@ -144,7 +138,6 @@ motion::World ControlLoop::world(const TickRecord& t) const noexcept {
     if (&scan != &newest && scan.sequence != 0) (void)others.push_back({&scan, map_from_laser(scan)});
   return {.now = t.now,
           .map_from_robot = t.pose.map_from_robot,
-          .wanted = t.wanted,
           .driven = driven_,
           .input = t.input,
           .scan = newest,

@@ -39,7 +39,6 @@ class ControlLoop {
   [[nodiscard]] const Plan& plan() const noexcept { return *plan_; }
   [[nodiscard]] const motion::Motion& motion() const noexcept { return *motion_; }
   [[nodiscard]] Mode mode() const noexcept { return supervisor_.mode(); }
-  [[nodiscard]] bool turns_at_goal() const noexcept { return motion_->status().turns_at_goal; }
 
  private:
   void read_devices(TickRecord& t) noexcept;
@@ -62,14 +61,12 @@ class ControlLoop {
   Planner& planner_;
   Recorder& recorder_;
   std::vector<BeamFilter> beam_filters_;  ///< of each scanner
-  motion::SpeedZones speed_zones_;
-  motion::ZoneSpeed zone_speed_{};  ///< this tick's
+  motion::ZoneSpeed zone_speed_{};        ///< this tick's
   Estimator estimator_;
   std::unique_ptr<motion::Motion> motion_;  ///< never null
   Latency latency_;
   KnownWalls known_walls_;
   Supervisor supervisor_;
-  DiffDrive diff_drive_;
   const Plan* plan_;                                    ///< what collect() last answered, never null
   Time asked_ = kNever;                                 ///< when a plan was asked for last
   Twist2 driven_;                                       ///< what the wheels were last asked for
@@ -77,8 +74,7 @@ class ControlLoop {
   std::uint32_t plan_noted_ = 0, plan_decided_on_ = 0;  ///< their sequences
 };
 
-/// Builds the controller for a setup on the given devices and runs it a tick at a time. What is slow (disk, tables)
-/// happens between ticks.
+/// Builds the controller for a setup and runs it a tick at a time. What is slow (disk, tables) happens between ticks.
 class LoopRunner {
  public:
   using MakePlanner = std::function<ChosenPlanner(const ControlSetup&)>;
@@ -99,8 +95,8 @@ class LoopRunner {
   const TickRecord& step_at(Time due);
   /// For a loop with a thread of its own: a tick and nothing that is slow; neither sleeps nor writes.
   const TickRecord& tick_at(Time due) noexcept;
-  /// The thread that reports: writes out what has been recorded. Where the disk takes no more of a file, says so once
-  /// and gives the ticks from then on Reason::kNotRecorded; so does report().
+  /// The thread that reports: writes out what has been recorded. A file of which the disk takes no more is told once,
+  /// and from then on ticks have Reason::kNotRecorded; so does report().
   void drain();
   /// What the tables are to say for a time of the loop's.
   using OwnTime = std::function<Time(Time)>;
@@ -108,8 +104,8 @@ class LoopRunner {
   void report(const TrueState* truth, const OwnTime& own = {});
   /// The thread that reports: tells it of a tick that was kept.
   void report(const RunSample& sample);
-  /// Closes the recording and finishes the observer; returns the file to look at first. Call once, after the last
-  /// step. Throws StartupError where the disk does not take the summary.
+  /// Once, after the last step: closes the recording and finishes the observer; returns the file to look at first.
+  /// Throws StartupError where the disk does not take the summary.
   std::filesystem::path finish(RunEnd end);
   /// When all is written: throws StartupError naming the first file that the disk did not take all of.
   void require_recorded() const;

@@ -27,7 +27,7 @@ NLOHMANN_JSON_SERIALIZE_ENUM(StickUse,
                              {{StickUse::kNone, "none"}, {StickUse::kShared, "shared"}, {StickUse::kByHand, "by_hand"}})
 NLOHMANN_JSON_SERIALIZE_ENUM(Backend, {{Backend::kAuto, "auto"}, {Backend::kCpu, "cpu"}, {Backend::kCuda, "cuda"}})
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ControlSetup, model, mode, constant_speed, backend, start, goal, goal_tolerance_m,
-                                   wheels, wired, rate_hz)
+                                   wheels, wired, rate_hz, judges_motion)
 
 namespace {
 
@@ -161,7 +161,6 @@ std::string to_text(const ControlSetup& setup) {
   nlohmann::json json(setup);
   if (!setup.model.laser.blanked.empty()) json["blanked"] = json_of(setup.model.laser.blanked);
   for (const LaserModel& laser : setup.model.other_lasers) json["other_lasers"].push_back(json_of(laser));
-  json["judges_motion"] = setup.judges_motion;
   json["drive_times"] = json_of(setup.model.drive.times);
   if (!setup.rival.empty()) json["planner"] = setup.rival;
   if (setup.given_movers) json["given_movers"] = true;
@@ -181,7 +180,6 @@ ControlSetup setup_from_text(const std::string& text, const std::string& place) 
     setup.model.laser.blanked = blanked_of(json);
     for (const nlohmann::json& laser : json.value("other_lasers", nlohmann::json::array()))
       if (!setup.model.other_lasers.push_back(laser_of(laser))) throw std::invalid_argument("too many lasers");
-    setup.judges_motion = json.at("judges_motion").get<bool>();
     setup.model.drive.times = drive_times_of(json);
     setup.rival = json.value("planner", setup.rival);
     setup.given_movers = json.value("given_movers", false);

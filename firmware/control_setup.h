@@ -1,6 +1,5 @@
 #pragma once
-// Everything that decides how the controller behaves: with the same setup and the same readings it gives the same
-// commands. A recording carries it as text.
+// All that decides on the controller's commands beside the devices' readings. A recording carries it as text.
 #include <memory>
 #include <string>
 #include <vector>
@@ -51,8 +50,7 @@ struct ControlSetup {
   Duration unix_from_loop{0};  ///< the wall clock less the loop's at the start; 0: there is none beside it
   int part = 1;  ///< number of the recording's part, from 1; a later part does not hold what the run did before it
 
-  /// Whether the body is more than a circle to the planners of others. At constant speed none is: it can neither stop
-  /// nor back out.
+  /// Whether the body is more than a circle to other planners; never at constant speed: it cannot stop or back out.
   [[nodiscard]] bool has_long_body() const;
   /// The robot's radius where movers are concerned, and walls for a nearly round one.
   [[nodiscard]] double mover_radius_m() const;

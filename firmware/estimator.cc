@@ -11,30 +11,22 @@ namespace {
 constexpr LaserScan kNoScan{};
 constexpr Duration kNoWayFor = std::chrono::seconds(10);  // time for a person in the way to walk on
 
-LocalizationConfig localization_config(const ControlSetup& setup) {
-  return {.map_from_robot_at_start = setup.start,
-          .drive = setup.model.drive,
-          .robot_from_laser = setup.model.laser.robot_from_laser,
-          .doubts = setup.wired || setup.judges_motion,
-          .robot_from_others = other_mounts(setup.model)};
-}
-
-PerceptionConfig perception_config(const ControlSetup& setup) {
-  return {.robot_from_laser = setup.model.laser.robot_from_laser,
-          .cell_m = setup.planner().cell_m,
-          .map_centre = (setup.start.position() + setup.goal) * 0.5,
-          .body = setup.model.footprint,
-          .known_map = setup.known_map,
-          .robot_from_others = other_mounts(setup.model)};
-}
-
 }  // namespace
 
 Estimator::Estimator(const ControlSetup& setup)
     : sees_given_movers_(setup.sees_given_movers()),
       times_(setup.model.drive.times),
-      localizer_(localization_config(setup)),
-      tracker_(perception_config(setup)) {
+      localizer_({.map_from_robot_at_start = setup.start,
+                  .drive = setup.model.drive,
+                  .robot_from_laser = setup.model.laser.robot_from_laser,
+                  .doubts = setup.wired || setup.judges_motion,
+                  .robot_from_others = other_mounts(setup.model)}),
+      tracker_({.robot_from_laser = setup.model.laser.robot_from_laser,
+                .cell_m = setup.planner().cell_m,
+                .map_centre = (setup.start.position() + setup.goal) * 0.5,
+                .body = setup.model.footprint,
+                .known_map = setup.known_map,
+                .robot_from_others = other_mounts(setup.model)}) {
   for (std::size_t k = 0; k < setup.model.lasers().size(); ++k) rests_.push_back({RestWatch(setup.model, k)});
 }
 
@@ -68,7 +60,12 @@ bool Estimator::take(const TickRecord& t, const LaserScan& scan) noexcept {
   const bool in_doubt = pose_.doubtful;
   pose_ = localizer_.update(t.wheels, seen, t.fix, tracker_.still(), tracker_.moving());
   if (sees_given_movers_ && std::exchange(fix_seen_, t.fix.sequence) != t.fix.sequence) tracker_.update_given(t.fix);
-  if (in_doubt && !pose_.doubtful) end_doubt();
+  if (in_doubt && !pose_.doubtful) {
+    for (Rest& rest : rests_) {
+      rest.watch.begin_anew();
+      rest.says = RestWatch::Says::kNothing;
+    }
+  }
   if (!new_scan || !explained || pose_.doubtful) return false;
   tracker_.update(scan, localizer_.map_from_robot_at_scan(scan.scanner), localizer_.twist(), t.now);
   return true;
@@ -88,13 +85,6 @@ bool Estimator::is_explained(const LaserScan& scan, const WheelState& wheels) no
   const bool stands = std::ranges::any_of(rests_, [](const Rest& rest) { return rest.says == Says::kStands; });
   if (says == Says::kMoved && !stands) localizer_.carried();
   return says != Says::kDoubts && says != Says::kMoved;
-}
-
-void Estimator::end_doubt() noexcept {
-  for (Rest& rest : rests_) {
-    rest.watch.begin_anew();
-    rest.says = RestWatch::Says::kNothing;
-  }
 }
 
 void Estimator::forget_where_stuck(const TickRecord& t) noexcept {

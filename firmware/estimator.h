@@ -7,8 +7,8 @@
 
 #include "firmware/control_setup.h"
 #include "firmware/recording/tick_record.h"
+#include "firmware/safety/blind_gaps.h"
 #include "firmware/safety/felt_motion.h"
-#include "firmware/safety/unseen_walls.h"
 #include "hal/types/fixed_vector.h"
 #include "hal/types/robot_model.h"
 #include "planner/localization/localizer.h"
@@ -23,17 +23,14 @@ class Estimator {
  public:
   explicit Estimator(const ControlSetup& setup);
 
-  /// From what the devices said in this tick, scan after scan in the order of their stamps. True with a new one, which
-  /// the tracks then rest on; not where the pose is in doubt.
+  /// Takes the tick's scans, the oldest first. True with a new one that the tracks rest on; not with a doubtful pose.
   [[nodiscard]] bool update(const TickRecord& t) noexcept;
-  /// Where it has stood for ten seconds with a goal and no path to it: what is mapped out of sight may have gone. Looks
-  /// at the tick's input and at what became of its plan.
+  /// Forgets what is mapped out of sight where the robot has stood for ten seconds with a goal and no path to it.
   void forget_where_stuck(const TickRecord& t) noexcept;
   void end_tick(const TickRecord& t) noexcept;
 
   [[nodiscard]] const PoseEstimate& pose() const noexcept { return pose_; }
-  /// The pose by now: that of a base that reports more rarely than usual, or late, is carried on at its last twist, for
-  /// as long as its reports are not stale. Else pose().
+  /// The pose by now: of a base that reports late or rarely, carried on at its last twist until that is stale.
   [[nodiscard]] PoseEstimate pose_at(Time now) const noexcept;
   [[nodiscard]] const Tracker& tracker() const noexcept { return tracker_; }
   [[nodiscard]] Pose2 map_from_robot_at_scan(std::size_t scanner = 0) const noexcept {
@@ -44,7 +41,6 @@ class Estimator {
  private:
   /// True where standing explains the scan of a robot at rest. Puts the pose in doubt where it was carried.
   [[nodiscard]] bool is_explained(const LaserScan& scan, const WheelState& wheels) noexcept;
-  void end_doubt() noexcept;
   [[nodiscard]] bool take(const TickRecord& t, const LaserScan& scan) noexcept;
 
   bool sees_given_movers_;  ///< they come with the fix
@@ -64,8 +60,7 @@ class Estimator {
   Time had_way_ = kNever;                     ///< or moved, had no goal, or looked anew for one, last
 };
 
-/// The walls near the robot as its map has them, for the supervisor: what stands where the laser does not look now.
-/// Of what has not stood for a second nothing is said: a walker leaves such behind. Thread: the loop's.
+/// Walls near the robot by its map that have stood for a second: a walker leaves others behind. Thread: the loop's.
 class KnownWalls final : public KnownGround {
  public:
   explicit KnownWalls(const Footprint& footprint) : reach_m_(footprint.circumscribed_radius_m() + kBeyond_m) {}

@@ -20,10 +20,8 @@
 
 namespace jaywalk {
 
-// Counts of measurements in bins of a fixed relative width.
-
-/// 64 bins for each doubling, each 0.8 to 1.6 % wide, from 2^-20 (a millionth) to 2^20; what is less counts as 0, what
-/// is more in the last bin. The greatest value is kept as it is. 20 kB; adding neither allocates nor throws.
+/// Counts of measurements: 64 bins for each doubling, 0.8 to 1.6 % wide, from 2^-20 (a millionth) to 2^20; what is less
+/// counts as 0, what is more in the last bin. The greatest is kept as it is. Adding neither allocates nor throws.
 class LogHistogram {
  public:
   void add(double value) noexcept;
@@ -112,11 +110,9 @@ struct RunEnd {
   std::filesystem::path recording = {};  ///< where one was made, whole; else empty
 };
 
-// How loop and robot tell the rest of the world: tables, pictures, MCAP and live page implement this in apps.
-
 struct ControlSetup;
 
-/// Observes a run. Every function does nothing unless it is overridden.
+/// How loop and robot tell the rest of the world: tables, pictures, MCAP and live page implement this in apps.
 class TickObserver {
  public:
   virtual ~TickObserver() = default;
@@ -141,8 +137,7 @@ class TickObserver {
   /// One line for each file that the disk did not take whole.
   [[nodiscard]] virtual std::vector<std::string> complaints() const { return {}; }
   [[nodiscard]] virtual bool is_losing() const { return false; }
-  /// Once, after the last tick. Returns the file to look at first; empty: the run's folder. Throws StartupError where
-  /// a file cannot be written whole.
+  /// Once, after the last tick. Returns the file to look at first; empty: the run's folder. Throws StartupError.
   virtual std::filesystem::path finish(const RunEnd& /*end*/, const ControlLoop& /*loop*/, const Planner& /*planner*/) {
     return {};
   }

@@ -62,16 +62,6 @@ MapZone read_zone(TomlTable& table) {
   return zone;
 }
 
-/// Beyond kWidestZones_m in x or in y.
-bool are_too_far_apart(const std::vector<MapZone>& zones) {
-  Box2 all;
-  for (const MapZone& zone : zones) {
-    if (zone.kind == ZoneKind::kKeepOut)
-      std::for_each(zone.corners.begin(), zone.corners.end(), [&](Vec2 p) { all.hold(p); });
-  }
-  return all.high.x - all.low.x > kWidestZones_m || all.high.y - all.low.y > kWidestZones_m;
-}
-
 }  // namespace
 
 std::vector<SettingKey> zone_keys() {
@@ -92,7 +82,8 @@ std::vector<MapZone> read_zones(TomlTable& root) {
     root.refuse("zones", "has " + std::to_string(tables.size()) + " zones", "draw at most 64");
   for (TomlTable& table : tables) {
     zones.push_back(read_zone(table));
-    if (are_too_far_apart(zones))
+    const Box2 all = box_of_keep_out(zones);
+    if (all.high.x - all.low.x > kWidestZones_m || all.high.y - all.low.y > kWidestZones_m)
       table.refuse("points", "lies more than 400 m from another keep-out zone", "leave out the zones of other places");
   }
   return zones;

@@ -56,28 +56,6 @@ const BoundKeys<MotionLimits> kLimitKeys(
                 "braking that the drive is proved to be able to do; stops rely on it")},
     kNeeded);
 
-/// `otherwise` of what a model's own file must have.
-std::vector<SettingKey> laser_keys_with(const std::string& section, const Otherwise& otherwise,
-                                        const Otherwise& of_noise) {
-  const Range beams{1.0, static_cast<double>(kMaxBeams)};
-  const std::string sector = section + ".blanked";
-  return section_keys(
-      section,
-      {number_row("fov_deg", {1.0, 360.0}, "degrees", otherwise, "from the first beam to the last, centred ahead"),
-       whole_row("beams", beams, "", otherwise, "of a sweep; fewer than 3 are refused"),
-       number_row("rate_hz", {0.1, 100.0}, "1/s", otherwise, "sweeps a second"),
-       number_row("range_min_m", {0.0, 5.0}, "m", otherwise, "the beam knows nothing of what is nearer; below range_m"),
-       number_row("range_m", {0.1, 300.0}, "m", otherwise, "a beam with nothing nearer is free up to here"),
-       number_row("noise_m", {0.0, 1.0}, "m", of_noise, "standard deviation of a range, simulated"),
-       number_row("drop_out", {0.0, 1.0}, "", of_noise, "share of beams lost, each by itself, simulated"),
-       key_row("mount", kNumbers, otherwise, "[x, y, yaw] of the laser on the robot, within 10 m", "m, m, rad"),
-       key_row("blanked", kTables, "none", "where the laser sees the robot itself; 16 at most"),
-       in_section(sector, number_row("from_deg", kSectorDegrees, "degrees", kNeeded,
-                                     "where the sector begins, in the laser's own frame")),
-       in_section(sector, number_row("to_deg", kSectorDegrees, "degrees", kNeeded,
-                                     "where it ends, counter-clockwise from there"))});
-}
-
 }  // namespace
 
 const std::vector<std::string>& comfort_names() {
@@ -155,10 +133,6 @@ void read_lasers(std::vector<TomlTable> tables, RobotModel& model,
   }
 }
 
-Comfort read_comfort(TomlTable& table) {
-  return table.has("comfort") ? static_cast<Comfort>(table.choice("comfort")) : Comfort::kNormal;
-}
-
 RobotModel load_robot_model(const std::filesystem::path& path) {
   const TomlFile file(path, robot_model_keys());
   TomlTable root = file.root();
@@ -172,29 +146,31 @@ RobotModel load_robot_model(const std::filesystem::path& path) {
   return model;
 }
 
-RobotModel robot_model(const std::string& choice) {
-  if (choice == "p3dx") return p3dx();
-  if (choice == "wheelchair") return wheelchair();
-  return load_robot_model(choice);
-}
-
 RobotModel read_model_choice(TomlTable& table, const std::string& key) {
   const std::string choice = table.text(key);
-  if (choice == "p3dx") return p3dx();
-  if (choice == "wheelchair") return wheelchair();
+  if (choice == "p3dx" || choice == "wheelchair") return robot_model(choice);
   return load_robot_model(table.existing_file(
       key, did_you_mean(choice, {"p3dx", "wheelchair"}, "write p3dx, wheelchair, or a robot model file's path")));
 }
 
-SettingKey comfort_key() {
-  return choice_row("comfort", "\"normal\"",
-                    "speed, acceleration, jerk and distance from people, from the model's limits (scenarios.md)",
-                    comfort_names());
-}
-
-std::vector<SettingKey> laser_keys(const std::string& section) {
-  constexpr const char* kModels = "the model's";
-  return laser_keys_with(section, kModels, kModels);
+std::vector<SettingKey> laser_keys(const std::string& section, const Otherwise& otherwise, const Otherwise& of_noise) {
+  const Range beams{1.0, static_cast<double>(kMaxBeams)};
+  const std::string sector = section + ".blanked";
+  return section_keys(
+      section,
+      {number_row("fov_deg", {1.0, 360.0}, "degrees", otherwise, "from the first beam to the last, centred ahead"),
+       whole_row("beams", beams, "", otherwise, "of a sweep; fewer than 3 are refused"),
+       number_row("rate_hz", {0.1, 100.0}, "1/s", otherwise, "sweeps a second"),
+       number_row("range_min_m", {0.0, 5.0}, "m", otherwise, "the beam knows nothing of what is nearer; below range_m"),
+       number_row("range_m", {0.1, 300.0}, "m", otherwise, "a beam with nothing nearer is free up to here"),
+       number_row("noise_m", {0.0, 1.0}, "m", of_noise, "standard deviation of a range, simulated"),
+       number_row("drop_out", {0.0, 1.0}, "", of_noise, "share of beams lost, each by itself, simulated"),
+       key_row("mount", kNumbers, otherwise, "[x, y, yaw] of the laser on the robot, within 10 m", "m, m, rad"),
+       key_row("blanked", kTables, "none", "where the laser sees the robot itself; 16 at most"),
+       in_section(sector, number_row("from_deg", kSectorDegrees, "degrees", kNeeded,
+                                     "where the sector begins, in the laser's own frame")),
+       in_section(sector, number_row("to_deg", kSectorDegrees, "degrees", kNeeded,
+                                     "where it ends, counter-clockwise from there"))});
 }
 
 const FileKeys& robot_model_keys() {
@@ -205,7 +181,7 @@ const FileKeys& robot_model_keys() {
                          key_row("drive", kTable, kNeeded, "wheels and motors"),
                          key_row("limits", kTable, kNeeded, "how fast it may move"),
                          key_row("laser", kTable, kNeeded, "the scanner, or [[laser]] for each")}),
-       kFootprintKeys.keys(), kDriveKeys.keys(), kLimitKeys.keys(), laser_keys_with("laser", kNeeded, 0.0)});
+       kFootprintKeys.keys(), kDriveKeys.keys(), kLimitKeys.keys(), laser_keys("laser", kNeeded, 0.0)});
   return keys;
 }
 

@@ -30,22 +30,34 @@ inline constexpr double kMostComfortAccel_mps2 = 1.0, kMostComfortJerk_mps3 = 2.
 [[nodiscard]] MotionLimits limits_for(Comfort comfort, const RobotModel& model) noexcept;
 
 [[nodiscard]] const FileKeys& robot_model_keys();
-/// Those of a table `section` that lies over a model's laser: none is needed, each is the model's without it.
-[[nodiscard]] std::vector<SettingKey> laser_keys(const std::string& section);
+/// Those of a table `section` that lies over a model's laser: none is needed, each is the model's without it. A model's
+/// own file has other defaults, `of_noise` of the simulated noise.
+[[nodiscard]] std::vector<SettingKey> laser_keys(const std::string& section, const Otherwise& otherwise = "the model's",
+                                                 const Otherwise& of_noise = "the model's");
 
 /// A robot's model from a TOML file with the tables footprint, drive, limits and laser; every key is documented in
 /// docs/reference/configuration.md. Throws StartupError "FILE:LINE: cause; remedy".
 [[nodiscard]] RobotModel load_robot_model(const std::filesystem::path& file);
 
 /// "p3dx", "wheelchair", or the file of that path.
-[[nodiscard]] RobotModel robot_model(const std::string& choice);
+[[nodiscard]] inline RobotModel robot_model(const std::string& choice) {
+  if (choice == "p3dx") return p3dx();
+  if (choice == "wheelchair") return wheelchair();
+  return load_robot_model(choice);
+}
 
 /// The model that `key` of `table` names: "p3dx", "wheelchair", or a file's path relative to the table's own file.
 [[nodiscard]] RobotModel read_model_choice(TomlTable& table, const std::string& key);
 
 /// The row of the key `comfort`, and its value: normal where it is absent.
-[[nodiscard]] SettingKey comfort_key();
-[[nodiscard]] Comfort read_comfort(TomlTable& table);
+[[nodiscard]] inline SettingKey comfort_key() {
+  return choice_row("comfort", "\"normal\"",
+                    "speed, acceleration, jerk and distance from people, from the model's limits (scenarios.md)",
+                    comfort_names());
+}
+[[nodiscard]] inline Comfort read_comfort(TomlTable& table) {
+  return table.has("comfort") ? static_cast<Comfort>(table.choice("comfort")) : Comfort::kNormal;
+}
 
 /// A sector of the laser's frame: from_deg, and counter-clockwise from there to_deg. Both are needed.
 [[nodiscard]] BlankedSector read_sector(TomlTable& table);

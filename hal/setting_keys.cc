@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <sstream>
 #include <stdexcept>
 
@@ -15,11 +14,7 @@ namespace jaywalk {
 namespace {
 
 /// The shortest of two forms; 4000000 is no 4e+06.
-std::string shortest(double value) {
-  char text[40];
-  std::snprintf(text, sizeof text, value < 1e9 ? "%.10g" : "%g", value);
-  return text;
-}
+std::string shortest(double value) { return value < 1e9 ? formatted("%.10g", value) : formatted("%g", value); }
 
 const SettingKey* look_up(const std::vector<SettingKey>& keys, const std::string& section, const std::string& key) {
   for (const SettingKey& row : keys)
@@ -142,39 +137,6 @@ std::vector<std::string> written_values(const toml::value& value) {
 
 }  // namespace
 
-SettingKey key_row(const char* key, KeyKind kind, Otherwise otherwise, const char* meaning, const char* unit) {
-  return {"", key, kind, {}, unit, otherwise, meaning};
-}
-
-SettingKey number_row(const char* key, Range range, const char* unit, Otherwise otherwise, const char* meaning) {
-  return {"", key, KeyKind::kNumber, range, unit, otherwise, meaning};
-}
-
-SettingKey whole_row(const char* key, Range range, const char* unit, Otherwise otherwise, const char* meaning) {
-  return {"", key, KeyKind::kInteger, range, unit, otherwise, meaning};
-}
-
-SettingKey choice_row(const char* key, Otherwise otherwise, const char* meaning,
-                      const std::vector<std::string>& choices) {
-  return {"", key, KeyKind::kChoice, {}, "", otherwise, meaning, choices};
-}
-
-SettingKey in_section(const std::string& section, SettingKey row) {
-  row.section = section;
-  return row;
-}
-
-std::vector<SettingKey> section_keys(const std::string& section, std::vector<SettingKey> rows) {
-  for (SettingKey& row : rows) row.section = row.section.empty() ? section : row.section;
-  return rows;
-}
-
-FileKeys file_keys(const char* title, const std::vector<std::vector<SettingKey>>& sections) {
-  FileKeys file{title, {}};
-  for (const auto& keys : sections) file.keys.insert(file.keys.end(), keys.begin(), keys.end());
-  return file;
-}
-
 const SettingKey& FileKeys::find(const std::string& section, const std::string& key) const {
   const SettingKey* row = look_up(keys, section, key);
   if (row == nullptr) throw std::logic_error(std::string(title) + ": no key " + section + "." + key + " in its table");
@@ -183,18 +145,6 @@ const SettingKey& FileKeys::find(const std::string& section, const std::string& 
 
 bool FileKeys::has(const std::string& section, const std::string& key) const {
   return look_up(keys, section, key) != nullptr;
-}
-
-std::string FileKeys::choice_with(const std::string& section, const std::string& key) const {
-  for (const SettingKey& row : keys)
-    if (row.key == key && row.section.starts_with(section + ":")) return row.section.substr(section.size() + 1);
-  return "";
-}
-
-std::string joined(const std::vector<std::string>& words) {
-  std::string all;
-  for (const std::string& word : words) all += (all.empty() ? "" : ", ") + word;
-  return all;
 }
 
 std::string allowed(const SettingKey& key) {

@@ -34,17 +34,31 @@ struct SettingKey {
 
 // Rows; those without a section are for section_keys().
 
-[[nodiscard]] SettingKey key_row(const char* key, KeyKind kind, Otherwise otherwise, const char* meaning,
-                                 const char* unit = "");
-[[nodiscard]] SettingKey number_row(const char* key, Range range, const char* unit, Otherwise otherwise,
-                                    const char* meaning);
-[[nodiscard]] SettingKey whole_row(const char* key, Range range, const char* unit, Otherwise otherwise,
-                                   const char* meaning);
-[[nodiscard]] SettingKey choice_row(const char* key, Otherwise otherwise, const char* meaning,
-                                    const std::vector<std::string>& choices);
-[[nodiscard]] SettingKey in_section(const std::string& section, SettingKey row);
+[[nodiscard]] inline SettingKey key_row(const char* key, KeyKind kind, Otherwise otherwise, const char* meaning,
+                                        const char* unit = "") {
+  return {"", key, kind, {}, unit, otherwise, meaning};
+}
+[[nodiscard]] inline SettingKey number_row(const char* key, Range range, const char* unit, Otherwise otherwise,
+                                           const char* meaning) {
+  return {"", key, KeyKind::kNumber, range, unit, otherwise, meaning};
+}
+[[nodiscard]] inline SettingKey whole_row(const char* key, Range range, const char* unit, Otherwise otherwise,
+                                          const char* meaning) {
+  return {"", key, KeyKind::kInteger, range, unit, otherwise, meaning};
+}
+[[nodiscard]] inline SettingKey choice_row(const char* key, Otherwise otherwise, const char* meaning,
+                                           const std::vector<std::string>& choices) {
+  return {"", key, KeyKind::kChoice, {}, "", otherwise, meaning, choices};
+}
+[[nodiscard]] inline SettingKey in_section(const std::string& section, SettingKey row) {
+  row.section = section;
+  return row;
+}
 /// Puts the rows that have no section into this one.
-[[nodiscard]] std::vector<SettingKey> section_keys(const std::string& section, std::vector<SettingKey> rows);
+[[nodiscard]] inline std::vector<SettingKey> section_keys(const std::string& section, std::vector<SettingKey> rows) {
+  for (SettingKey& row : rows) row.section = row.section.empty() ? section : row.section;
+  return rows;
+}
 
 struct FileKeys {
   const char* title = "";  ///< "Scenario file"
@@ -54,18 +68,30 @@ struct FileKeys {
   [[nodiscard]] const SettingKey& find(const std::string& section, const std::string& key) const;
   [[nodiscard]] bool has(const std::string& section, const std::string& key) const;
   /// The choice of `section` ("vesc" of "drive:vesc") that has this key; empty where none has.
-  [[nodiscard]] std::string choice_with(const std::string& section, const std::string& key) const;
+  [[nodiscard]] std::string choice_with(const std::string& section, const std::string& key) const {
+    for (const SettingKey& row : keys)
+      if (row.key == key && row.section.starts_with(section + ":")) return row.section.substr(section.size() + 1);
+    return "";
+  }
 };
 
 /// The keys of all sections, in their order.
-[[nodiscard]] FileKeys file_keys(const char* title, const std::vector<std::vector<SettingKey>>& sections);
+[[nodiscard]] inline FileKeys file_keys(const char* title, const std::vector<std::vector<SettingKey>>& sections) {
+  FileKeys file{title, {}};
+  for (const auto& keys : sections) file.keys.insert(file.keys.end(), keys.begin(), keys.end());
+  return file;
+}
 
 /// "0.1 to 100", "true or false", "p3dx, wheelchair": what may be written.
 [[nodiscard]] std::string allowed(const SettingKey& key);
 /// "needed", "0.3", "the model's".
 [[nodiscard]] std::string default_of(const SettingKey& key);
 /// "a, b, c"
-[[nodiscard]] std::string joined(const std::vector<std::string>& words);
+[[nodiscard]] inline std::string joined(const std::vector<std::string>& words) {
+  std::string all;
+  for (const std::string& word : words) all += (all.empty() ? "" : ", ") + word;
+  return all;
+}
 
 /// What the place of a value begins with that no file holds.
 inline constexpr const char* kGivenPlace = "--set ";

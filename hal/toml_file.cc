@@ -35,11 +35,7 @@ std::string place(const std::filesystem::path& file, std::size_t line) {
   return file.string() + ":" + std::to_string(std::max<std::size_t>(line, 1)) + ": ";
 }
 
-std::string written(double value) {
-  std::ostringstream out;
-  out << value;
-  return out.str();
-}
+std::string written(double value) { return formatted("%g", value); }
 
 // The library draws a picture of several lines; what is wrong stands at the end of the first, behind a function's name.
 std::string cause_in(const std::string& text) {
@@ -115,10 +111,6 @@ TomlFile::TomlFile(const std::filesystem::path& file, const FileKeys& keys, cons
   for (const std::string& setting : settings) apply_setting(table_, keys, file, setting);
 }
 
-TomlTable::TomlTable(const std::filesystem::path& file, const FileKeys& keys, const toml::value& table,
-                     std::string name)
-    : file_(&file), keys_(&keys), table_(&table), name_(std::move(name)), section_(name_) {}
-
 std::string TomlTable::place_of(const std::string& key) const {
   const toml::value* node = look_up(*table_, key);
   const auto where = node != nullptr ? node->location() : table_->location();
@@ -155,23 +147,12 @@ void TomlTable::refuse_misspelt(const std::string& key) const {
   }
 }
 
-bool TomlTable::has(const std::string& key) const {
-  static_cast<void>(row(key));
-  return table_->contains(key);
-}
-
 double TomlTable::number_from(const std::string& key, const toml::value& node, Range range) const {
   if (!is_number(node)) refuse(key, "is not a number", "write a number");
   const double value = as_number(node);
   if (!(value >= range.low && value <= range.high))
     refuse(key, "is " + written(value), "choose a value from " + written(range.low) + " to " + written(range.high));
   return value;
-}
-
-double TomlTable::number(const std::string& key, std::optional<double> otherwise, double most) {
-  const toml::value* node = find_number(key, otherwise);
-  const Range range = row(key).range;
-  return node == nullptr ? *otherwise : number_from(key, *node, {range.low, std::min(range.high, most)});
 }
 
 std::int64_t TomlTable::integer(const std::string& key, std::optional<std::int64_t> otherwise) {
@@ -197,26 +178,12 @@ std::size_t TomlTable::choice(const std::string& key) {
   return static_cast<std::size_t>(found - choices.begin());
 }
 
-std::size_t TomlTable::choose_keys(const std::string& key) {
-  const std::size_t chosen = choice(key);
-  section_ = name_ + ":" + row(key).choices[chosen];
-  return chosen;
-}
-
 std::string TomlTable::text(const std::string& key) {
   const toml::value& node = need(key);
   if (!node.is_string()) refuse(key, "is not a text", "write it in quotes");
   std::string said = toml::get<std::string>(node);
   if (said != printable(said)) refuse(key, "holds a control character", "write letters that can be printed");
   return said;
-}
-
-std::string TomlTable::text(const std::string& key, const std::string& otherwise) {
-  return find(key) == nullptr ? otherwise : text(key);
-}
-
-std::vector<double> TomlTable::numbers(const std::string& key, std::size_t least, std::size_t most) {
-  return numbers_from(key, need(key), least, most);
 }
 
 std::vector<double> TomlTable::numbers_from(const std::string& key, const toml::value& node, std::size_t least,
@@ -250,19 +217,6 @@ std::vector<double> TomlTable::place_in_map(const std::string& key, std::size_t 
     refuse(key, "has the heading " + written(values[2]) + " rad",
            "give radians: " + written(values[2]) + " degrees are " + written(wrap_angle(values[2] * kPi / 180.0)));
   return values;
-}
-
-TomlTable TomlTable::table(const std::string& key) {
-  const toml::value& found = need(key);
-  if (!found.is_table()) refuse(key, "is not a table", "write [" + title(key) + "] and its keys below");
-  return {*file_, *keys_, found, title(key)};
-}
-
-std::vector<TomlTable> TomlTable::table_or_tables(const std::string& key) {
-  if (!need(key).is_array()) return {table(key)};
-  std::vector<TomlTable> found = tables(key);
-  if (found.empty()) refuse(key, "is an empty list", "write [" + title(key) + "] and its keys below");
-  return found;
 }
 
 std::vector<TomlTable> TomlTable::tables(const std::string& key) {

@@ -7,7 +7,6 @@
 #include <optional>
 #include <set>
 #include <string>
-#include <toml.hpp>
 #include <utility>
 #include <vector>
 
@@ -28,9 +27,13 @@ struct ListedKey {
 /// defaults are those of the file's table of keys. The table belongs to a TomlFile that outlives it.
 class TomlTable {
  public:
-  TomlTable(const std::filesystem::path& file, const FileKeys& keys, const toml::value& table, std::string name);
+  TomlTable(const std::filesystem::path& file, const FileKeys& keys, const toml::value& table, std::string name)
+      : file_(&file), keys_(&keys), table_(&table), name_(std::move(name)), section_(name_) {}
 
-  [[nodiscard]] bool has(const std::string& key) const;
+  [[nodiscard]] bool has(const std::string& key) const {
+    static_cast<void>(row(key));
+    return table_->contains(key);
+  }
   /// Whether the key has no default.
   [[nodiscard]] bool needs(const std::string& key) const {
     return std::holds_alternative<std::monostate>(row(key).otherwise);
@@ -38,15 +41,25 @@ class TomlTable {
   /// The number under `key`, else `otherwise`, else the default of the table of keys; where that has none the key must
   /// be there. Throws for a wrong type, NaN, outside the key's range, or more than `most`.
   [[nodiscard]] double number(const std::string& key, std::optional<double> otherwise = {},
-                              double most = std::numeric_limits<double>::infinity());
+                              double most = std::numeric_limits<double>::infinity()) {
+    const toml::value* node = find_number(key, otherwise);
+    const Range range = row(key).range;
+    return node == nullptr ? *otherwise : number_from(key, *node, {range.low, std::min(range.high, most)});
+  }
   [[nodiscard]] std::int64_t integer(const std::string& key, std::optional<std::int64_t> otherwise = {});
   [[nodiscard]] bool boolean(const std::string& key, std::optional<bool> otherwise = {});
   [[nodiscard]] std::string text(const std::string& key);
-  [[nodiscard]] std::string text(const std::string& key, const std::string& otherwise);
+  [[nodiscard]] std::string text(const std::string& key, const std::string& otherwise) {
+    return find(key) == nullptr ? otherwise : text(key);
+  }
   /// Which of the key's choices it is, counted from 0.
   [[nodiscard]] std::size_t choice(const std::string& key);
   /// The same; what else is read are this choice's own keys ("drive:vesc") and the table's.
-  [[nodiscard]] std::size_t choose_keys(const std::string& key);
+  [[nodiscard]] std::size_t choose_keys(const std::string& key) {
+    const std::size_t chosen = choice(key);
+    section_ = name_ + ":" + row(key).choices[chosen];
+    return chosen;
+  }
   /// What else is read are the keys of that choice, which is known from elsewhere.
   void take_keys_of(const std::string& choice) { section_ = name_ + ":" + choice; }
   /// An array of exactly `count` finite numbers.
@@ -54,7 +67,9 @@ class TomlTable {
     return numbers(key, count, count);
   }
   /// Of `least` or `most` of them.
-  [[nodiscard]] std::vector<double> numbers(const std::string& key, std::size_t least, std::size_t most);
+  [[nodiscard]] std::vector<double> numbers(const std::string& key, std::size_t least, std::size_t most) {
+    return numbers_from(key, need(key), least, most);
+  }
   /// One text, or a list of at least one.
   [[nodiscard]] std::vector<std::string> texts(const std::string& key);
   /// All keys of the table under `key`, in the file's order; none where there is no such table.
@@ -64,9 +79,18 @@ class TomlTable {
   /// A list of `least` to `most` places [x, y] in the map, each within 100 km.
   [[nodiscard]] std::vector<Vec2> points_in_map(const std::string& key, std::size_t least, std::size_t most);
   /// A table that must be there.
-  [[nodiscard]] TomlTable table(const std::string& key);
+  [[nodiscard]] TomlTable table(const std::string& key) {
+    const toml::value& found = need(key);
+    if (!found.is_table()) refuse(key, "is not a table", "write [" + title(key) + "] and its keys below");
+    return {*file_, *keys_, found, title(key)};
+  }
   /// One table that must be there, or several of them written as [[key]].
-  [[nodiscard]] std::vector<TomlTable> table_or_tables(const std::string& key);
+  [[nodiscard]] std::vector<TomlTable> table_or_tables(const std::string& key) {
+    if (!need(key).is_array()) return {table(key)};
+    std::vector<TomlTable> found = tables(key);
+    if (found.empty()) refuse(key, "is an empty list", "write [" + title(key) + "] and its keys below");
+    return found;
+  }
   /// The tables written as [[key]]; none when the key is absent.
   [[nodiscard]] std::vector<TomlTable> tables(const std::string& key);
 

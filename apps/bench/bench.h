@@ -4,12 +4,10 @@
 #include <cstdint>
 #include <ctime>
 #include <filesystem>
-#include <span>
 #include <string>
 #include <vector>
 
 #include "apps/report/distribution.h"
-#include "firmware/control_setup.h"
 #include "planner/mapping/evidence_map.h"
 #include "planner/paper/map_field.h"
 #include "planner/tracking/track.h"
@@ -79,13 +77,5 @@ Timing time(const char* what, int repeats, const std::string& backend, const Wor
 /// Times shortest ways and harmonic potentials as textbooks have them, on free cells that are inflated beforehand at no
 /// cost.
 [[nodiscard]] std::vector<Timing> time_rivals(const BenchMap& map, int repeats);
-
-/// Times decisions on motion alone, of a P3-DX under way at the map's start among `movers` bodies within 8 m that walk
-/// on from scan to scan: belief, futures, trajectories, choice. No seeing, no guide.
-[[nodiscard]] Timing time_decision(const BenchMap& map, int movers, int repeats);
-
-/// Times whole ticks that each have a new scan, of 811 beams over 270 degrees: seeing, planning and acting, by a robot
-/// that stands at the map's start while `walkers` go on from where they are. A simulated laser sees them and the walls.
-[[nodiscard]] Timing time_tick(const BenchMap& map, std::span<const Track> walkers, Backend backend, int repeats);
 
 }  // namespace jaywalk

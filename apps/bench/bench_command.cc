@@ -1,6 +1,7 @@
 #include <array>
 #include <cstdio>
 #include <fstream>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -10,8 +11,13 @@
 #include "apps/jaywalk/commands.h"
 #include "apps/jaywalk/progress.h"
 #include "apps/rivals/paper_mode.h"
+#include "firmware/backends.h"
+#include "firmware/control_loop.h"
+#include "firmware/recording/recorded_hal.h"
+#include "hal/sim/sensors.h"
 #include "hal/text_file.h"
 #include "hal/types/errors.h"
+#include "planner/motion/motion.h"
 
 namespace jaywalk {
 namespace {
@@ -24,7 +30,10 @@ struct BenchOptions {
 
 BenchOptions bench_options;
 
+constexpr double kScan_s = 1.0 / 15.0;
 constexpr int kDecisions = 101;
+constexpr int kDecisionsBefore = 15;      // by then every mover is known to walk
+constexpr int kTicksBefore = 50;          // by then walkers are confirmed
 constexpr std::int32_t kTickCells = 256;  // what a loop sees around it
 
 /// Movers that walk about, so that no two submissions are alike.
@@ -62,7 +71,6 @@ Timing time_plan(const BenchMap& map, bool by_potential, Backend backend, int re
     request.masked = bodies, request.standing = standing;
   const char* const name = by_potential ? "potential, 8 movers" : "plan, 8 movers";
   return time(name, repeats, planner.backend(), [&] {
-    constexpr double kScan_s = 1.0 / 15.0;
     request.map_from_robot.x -= request.speed_mps * kScan_s;
     for (std::size_t k = 0; k < tracks.size(); ++k) {
       Track& track = tracks[k];
@@ -73,6 +81,112 @@ Timing time_plan(const BenchMap& map, bool by_potential, Backend backend, int re
     planner.submit(request);
     (void)planner.collect();
   });
+}
+
+/// Spread evenly over a disc of 8 m: radii by the square root, angles by the golden one.
+std::vector<Track> walkers_round(Vec2 middle, int count) {
+  std::vector<Track> tracks;
+  for (int k = 0; k < count; ++k) {
+    const Vec2 place = middle + direction(2.39996 * k) * (8.0 * sqrt((k + 0.5) / count));
+    tracks.push_back(walker_at(static_cast<std::size_t>(k), place, direction(1.7 * k) * 0.4));
+    tracks.back().moving = tracks.back().is_pedestrian = true;
+  }
+  return tracks;
+}
+
+ControlSetup setup_at(const BenchMap& map) {
+  ControlSetup setup;
+  setup.model = p3dx();
+  setup.model.laser.rate_hz = setup.rate_hz;
+  const Vec2 start = middle_of(map.start);
+  setup.goal = middle_of(map.goal);
+  setup.start = {start.x, start.y, atan2(setup.goal.y - start.y, setup.goal.x - start.x)};
+  return setup;
+}
+
+/// Scans of all ticks, made before the timing begins.
+std::vector<LaserScan> scans_of(const BenchMap& map, std::span<const Track> walkers, const ControlSetup& setup,
+                                int ticks) {
+  sim::WallMap drawn;
+  drawn.raster = {{}, kBenchCell_m, map.cells.width, map.cells.height, map.cells.wall};
+  drawn.segments = sim::edges_of(drawn.raster);
+  const sim::Walls walls(std::move(drawn));
+  sim::LaserSim laser(setup.model.laser, 1);
+  std::vector<LaserScan> scans(static_cast<std::size_t>(ticks));
+  std::vector<sim::Disc> discs(walkers.size());
+  for (std::size_t k = 0; k < scans.size(); ++k) {
+    const Duration after = setup.tick() * static_cast<std::int64_t>(k + 1);
+    for (std::size_t w = 0; w < discs.size(); ++w)
+      discs[w] = {walkers[w].position_in_map + walkers[w].velocity_in_map * to_seconds(after), walkers[w].radius_m};
+    laser.sweep(walls, discs, setup.start, Time{after}, scans[k]);
+    scans[k].sequence = static_cast<std::uint32_t>(k + 1);
+  }
+  return scans;
+}
+
+/// Times decisions on motion alone, of a P3-DX under way at the map's start among `movers` bodies within 8 m that walk
+/// on from scan to scan: belief, futures, trajectories, choice. No seeing, no guide.
+Timing time_decision(const BenchMap& map, int movers, int repeats) {
+  const RobotModel model = p3dx();
+  PlannerConfig config;
+  config.side_cells = config.max_side_cells = map.cells.width;
+  config.body = model.footprint;
+  const auto planner = make_cpu_planner(config);
+  const EvidenceMap evidence = evidence_of(map, EvidenceMap::kMin);
+  const ControlSetup setup = setup_at(map);
+  const Pose2 pose = setup.start;
+  const Vec2 goal = setup.goal;
+  planner->submit(
+      {.map_from_robot = pose, .goal_in_map = goal, .speed_mps = model.limits.max_speed_mps, .still = &evidence});
+  const auto plan = std::make_unique<Plan>(planner->collect());
+  const auto motion = motion::make_motion({.model = model});
+  std::vector<Track> tracks = walkers_round(pose.position(), movers);
+  const auto scan = std::make_unique<LaserScan>();
+  OperatorInput input;
+  input.has_goal = true;
+  input.goal_in_map = goal;
+  Time now{};
+  const auto decide = [&] {
+    now += duration_from_seconds(kScan_s);
+    for (Track& t : tracks)
+      t.position_in_map = t.position_in_map + t.velocity_in_map * kScan_s, t.stamp = t.still_since = now;
+    scan->stamp = plan->stamp = now;
+    motion->decide({.now = now,
+                    .new_scan = true,
+                    .map_from_robot = pose,
+                    .driven = {0.4, 0.0},
+                    .input = input,
+                    .scan = *scan,
+                    .map_from_laser = pose,
+                    .perceived = {.tracks = tracks, .still = evidence},
+                    .plan = *plan},
+                   {motion::Intent::Kind::kGoal});
+  };
+  for (int k = 0; k < kDecisionsBefore; ++k) decide();
+  return time(("decision, " + std::to_string(movers)).c_str(), repeats, "cpu", decide);
+}
+
+/// Times whole ticks that each have a new scan, of 811 beams over 270 degrees: seeing, planning and acting, by a robot
+/// that stands at the map's start while `walkers` go on from where they are. A simulated laser sees them and the walls.
+Timing time_tick(const BenchMap& map, std::span<const Track> walkers, Backend backend, int repeats) {
+  const ControlSetup setup = setup_at(map);
+  const std::vector<LaserScan> scans = scans_of(map, walkers, setup, kTicksBefore + repeats);
+  const auto devices = std::make_unique<TickRecord>();
+  devices->input.has_goal = true;
+  devices->input.goal_in_map = setup.goal;
+  RecordedHal hal(*devices);
+  const ChosenPlanner chosen = make_planner(setup.planner(), backend);
+  Recorder recorder({});
+  ControlLoop loop(setup, hal.hal(), *chosen.planner, recorder);
+  auto next = scans.begin();
+  const auto tick = [&] {
+    devices->scan = *next++;
+    devices->now = devices->wheels.stamp = devices->scan.stamp;
+    ++devices->wheels.sequence;
+    (void)loop.tick(devices->now);
+  };
+  for (int k = 0; k < kTicksBefore; ++k) tick();
+  return time("tick, 8 movers", repeats, chosen.planner->backend(), tick);
 }
 
 class Bench {
@@ -93,7 +207,7 @@ class Bench {
   void measure(const BenchMap& map, paper::MapField& field, Backend backend, int repeats,
                const std::vector<Timing>& rivals) {
     field.inflate(kBenchInflation);
-    paper::MapQuality quality;
+    paper::FieldQuality quality;
     bool certified = true;
     const auto cold = [&] {
       quality = field.solve_cold(map.goal);

@@ -10,11 +10,9 @@
 #include <csignal>
 #include <cstring>
 #include <regex>
-#include <utility>
 
 #include "hal/maps/wall_map.h"
 #include "hal/sim/scenario.h"
-#include "hal/toml_file.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk::campaign {
@@ -47,14 +45,14 @@ std::string read_name(TomlTable& table) {
 Axis read_option(TomlTable& table, const std::string& key, const std::vector<std::string>& choices) {
   std::vector<std::string> values = table.has(key) ? table.texts(key) : std::vector<std::string>{choices.front()};
   for (const std::string& value : values)
-    if (std::find(choices.begin(), choices.end(), value) == choices.end())
+    if (std::ranges::count(choices, value) == 0)
       table.refuse(key, "is \"" + value + "\"", "choose of " + joined(choices) + ", several in a list");
-  return {key, std::move(values), table.place_of(key), true};
+  return {{key, std::move(values), table.place_of(key)}, true};
 }
 
 std::vector<Axis> read_axes(TomlTable& table) {
   std::vector<Axis> axes;
-  for (const ListedKey& key : table.listed("set")) axes.push_back({key.name, key.values, key.place, false});
+  for (const ListedKey& key : table.listed("set")) axes.push_back({key, false});
   axes.push_back(read_option(table, "planner", {"ours", "none", "replan", "dwa", "orca"}));
   axes.push_back(read_option(table, "mode", {"full", "paper"}));
   return axes;
@@ -298,14 +296,12 @@ void RunPool::start(std::size_t index, const PlannedRun& run, const std::filesys
 }
 
 std::optional<RunPool::Ended> RunPool::ended() {
-  for (auto run = runs_.begin(); run != runs_.end(); ++run) {
-    int status = 0;
-    if (::waitpid(run->first, &status, WNOHANG) != run->first) continue;
-    const Ended ended{run->second, status};
-    runs_.erase(run);
-    return ended;
-  }
-  return std::nullopt;
+  int status = 0;
+  const auto run = runs_.find(::waitpid(-1, &status, WNOHANG));
+  if (run == runs_.end()) return std::nullopt;
+  const Ended ended{run->second, status};
+  runs_.erase(run);
+  return ended;
 }
 
 std::vector<std::size_t> RunPool::kill_all() {

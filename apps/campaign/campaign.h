@@ -12,15 +12,13 @@
 #include <vector>
 
 #include "hal/setting_keys.h"
+#include "hal/toml_file.h"
 #include "hal/types/geometry.h"
 
 namespace jaywalk::campaign {
 
 /// One thing that is varied: a key of the scenario ("movers.count"), or an option ("mode").
-struct Axis {
-  std::string name;
-  std::vector<std::string> values;
-  std::string place;       ///< "paper.toml:12: "
+struct Axis : ListedKey {
   bool is_option = false;  ///< of jaywalk sim, not a key of the scenario
 };
 

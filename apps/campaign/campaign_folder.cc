@@ -3,7 +3,6 @@
 #include <fcntl.h>
 #include <sys/file.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -85,11 +84,11 @@ RunResult without_run(const std::filesystem::path& folder, const std::string& ou
 constexpr std::array kKeptOfAll{"run.json", "summary.json", "run.svg"};
 
 /// The file lock that a process has until it ends, however it ends.
-int hold(const std::filesystem::path& file, const std::string& share) {
-  const int held = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
-  if (held < 0) throw StartupError(file.string() + ": cannot be written", "give --out a folder that can be written");
-  if (::flock(held, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return held;  // not every disk has locks
-  ::close(held);
+wire::FileDescriptor hold(const std::filesystem::path& file, const std::string& share) {
+  wire::FileDescriptor held(::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644));
+  if (held.get() < 0)
+    throw StartupError(file.string() + ": cannot be written", "give --out a folder that can be written");
+  if (::flock(held.get(), LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return held;  // not every disk has locks
   throw StartupError(file.parent_path().string() + ": another process runs its share " + share,
                      "wait for its end, or choose another --shard");
 }
@@ -103,8 +102,7 @@ void make_folders(const std::filesystem::path& folder) {
 void prune(const std::filesystem::path& folder) {
   const std::vector<std::filesystem::path> all(std::filesystem::directory_iterator(folder), {});
   for (const std::filesystem::path& file : all)
-    if (std::find(kKeptOfAll.begin(), kKeptOfAll.end(), file.filename()) == kKeptOfAll.end())
-      std::filesystem::remove_all(file);
+    if (std::ranges::count(kKeptOfAll, file.filename()) == 0) std::filesystem::remove_all(file);
 }
 
 }  // namespace
@@ -139,11 +137,6 @@ std::string digest_of_file(const std::filesystem::path& file) {
   return hexadecimal(hash);
 }
 
-double RunResult::figure(const std::string& name) const {
-  const auto found = figures.find(name);
-  return found == figures.end() ? kUnknown : found->second;
-}
-
 RunResult result_of(const PlannedRun& run, const std::filesystem::path& folder, int status) {
   if (WIFSIGNALED(status)) return without_run(folder, "crashed", "ended by signal " + std::to_string(WTERMSIG(status)));
   const int code = WEXITSTATUS(status);
@@ -164,14 +157,9 @@ RunResult result_of(const PlannedRun& run, const std::filesystem::path& folder, 
 }
 
 std::string to_text(const RunResult& result) {
-  Json j;
-  j["outcome"] = result.outcome;
-  j["success"] = result.success;
-  j["reason"] = result.reason;
-  j["at_s"] = result.at_s;  // null where there is none
-  j["robot_csv"] = result.robot_csv;
-  j["figures"] = result.figures;
-  j["turn_histogram"] = result.turns;
+  const Json j{{"outcome", result.outcome},     {"success", result.success}, {"reason", result.reason},
+               {"at_s", result.at_s},  // null where there is none
+               {"robot_csv", result.robot_csv}, {"figures", result.figures}, {"turn_histogram", result.turns}};
   return j.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
@@ -204,10 +192,6 @@ void write_whole(const std::filesystem::path& file, const std::string& text, con
   if (!out || error) throw StartupError(file.string() + ": cannot be written", "free some disk and call this again");
 }
 
-std::filesystem::path place_of(const std::filesystem::path& campaign, const PlannedRun& run) {
-  return campaign / "runs" / run.folder;
-}
-
 CampaignFolder::CampaignFolder(const std::filesystem::path& path, const std::string& text, const Shard& shard)
     : path_(path), share_(std::to_string(shard.part) + "-of-" + std::to_string(shard.of)) {
   make_folders(path_ / "shares");
@@ -215,20 +199,9 @@ CampaignFolder::CampaignFolder(const std::filesystem::path& path, const std::str
   const std::filesystem::path plan = path_ / "campaign.json";
   if (!std::filesystem::exists(plan)) write_whole(plan, text, share_);
   if (text_in(plan) == text) return;
-  ::close(held_);
   throw StartupError(path.string() + ": holds another campaign, or runs of other scenarios or of another build",
                      "choose another --out, or remove it");
 }
-
-std::filesystem::path CampaignFolder::work(const PlannedRun& run) const {
-  return place_of(path_, run).string() + ".part-" + share_;
-}
-
-bool CampaignFolder::is_finished(const PlannedRun& run) const {
-  return std::filesystem::exists(place_of(path_, run) / "run.json");
-}
-
-RunResult CampaignFolder::result(const PlannedRun& run) const { return read_result(place_of(path_, run) / "run.json"); }
 
 std::filesystem::path CampaignFolder::begin(const PlannedRun& run) const {
   drop(run);

@@ -3,14 +3,15 @@
 // campaign.json: all that a report needs to know of a campaign beside its runs.
 #include <array>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "apps/campaign/campaign.h"
-#include "apps/campaign/statistics.h"
 #include "apps/report/drive_metrics.h"
+#include "drivers/wire/file_descriptor.h"
 
 namespace jaywalk::campaign {
 
@@ -38,6 +39,8 @@ struct ReportedCampaign {
 /// Digest of a file's bytes; of an empty text where it cannot be read.
 [[nodiscard]] std::string digest_of_file(const std::filesystem::path& file);
 
+inline constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();  ///< a figure of which nothing is known
+
 /// Result of one run, as its run.json has it. Where that is, the run is over.
 struct RunResult {
   std::string outcome;     ///< summary.json's; "crashed" or "refused" where the program did not get so far
@@ -53,7 +56,10 @@ struct RunResult {
   /// Whether there was a run at all.
   [[nodiscard]] bool ran() const { return outcome != "crashed" && outcome != "refused"; }
   /// NaN where the run does not have it.
-  [[nodiscard]] double figure(const std::string& name) const;
+  [[nodiscard]] double figure(const std::string& name) const {
+    const auto found = figures.find(name);
+    return found == figures.end() ? kUnknown : found->second;
+  }
 };
 
 /// Result of a process that ended with `status` (waitpid's), by its tables and its output (said.txt) in `folder`.
@@ -72,6 +78,11 @@ struct Shard {
   [[nodiscard]] bool has(std::size_t run) const { return run % of == part - 1; }
 };
 
+/// Where a finished run lies below a campaign's folder.
+[[nodiscard]] inline std::filesystem::path place_of(const std::filesystem::path& campaign, const PlannedRun& run) {
+  return campaign / "runs" / run.folder;
+}
+
 /// Holds the folder's share for as long as it lives. A run is worked on in a folder of the share's own and moved to its
 /// place when its mark, run.json, lies in it: what has a mark is whole, whenever the process was killed.
 class CampaignFolder {
@@ -79,15 +90,16 @@ class CampaignFolder {
   /// Makes it where it is missing. `text`: campaign.json's. Throws StartupError where it cannot be written to, holds
   /// another campaign, or another process runs this share.
   CampaignFolder(const std::filesystem::path& path, const std::string& text, const Shard& shard);
-  ~CampaignFolder() { ::close(held_); }
-  CampaignFolder(const CampaignFolder&) = delete;
-  CampaignFolder& operator=(const CampaignFolder&) = delete;
 
-  [[nodiscard]] bool is_finished(const PlannedRun& run) const;
+  [[nodiscard]] bool is_finished(const PlannedRun& run) const {
+    return std::filesystem::exists(place_of(path_, run) / "run.json");
+  }
   /// Of a finished one. Throws StartupError where its mark was spoiled.
-  [[nodiscard]] RunResult result(const PlannedRun& run) const;
+  [[nodiscard]] RunResult result(const PlannedRun& run) const { return read_result(place_of(path_, run) / "run.json"); }
   /// Where it is worked on until it is finished.
-  [[nodiscard]] std::filesystem::path work(const PlannedRun& run) const;
+  [[nodiscard]] std::filesystem::path work(const PlannedRun& run) const {
+    return place_of(path_, run).string() + ".part-" + share_;
+  }
   /// Makes that folder, empty.
   [[nodiscard]] std::filesystem::path begin(const PlannedRun& run) const;
   /// Leaves the mark, removes what is not to be kept, and moves the run to its place.
@@ -98,16 +110,11 @@ class CampaignFolder {
  private:
   std::filesystem::path path_;
   std::string share_;
-  int held_ = -1;
+  wire::FileDescriptor held_;
 };
 
-/// Where a finished run lies below a campaign's folder.
-[[nodiscard]] std::filesystem::path place_of(const std::filesystem::path& campaign, const PlannedRun& run);
-
 /// Writes a file that is whole or not there, whenever the process is killed. Throws StartupError where it cannot.
-void write_whole(const std::filesystem::path& file, const std::string& text, const std::string& own_name);
-
-// Ride figures and failure cause of a run, read from its tables.
+void write_whole(const std::filesystem::path& file, const std::string& text, const std::string& own_name = "begun");
 
 /// Ride comfort of a run, from robot.csv, as RunResult::figures has it. steering_reversals, speed_reversals: how often
 /// the robot turned or drove one way, and then the other; stood_share: of its ticks, slower than 0.05 m/s; hard_brakes:

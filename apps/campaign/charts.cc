@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "apps/campaign/report.h"
-#include "apps/campaign/statistics.h"
 #include "apps/report/markup.h"
 #include "hal/shown_text.h"
 #include "hal/types/geometry.h"
@@ -168,12 +167,8 @@ ReportTable success_table(const std::vector<SuccessLine>& lines) {
   std::set<double> counts;
   for (const SuccessLine& line : lines)
     for (const SuccessPoint& point : line.points) counts.insert(point.movers);
-  ReportTable table{"Success, by movers", {""}, {}};
-  for (const double movers : counts) table.head.push_back(fixed(movers, 0));
-  for (const SuccessLine& line : lines) {
-    table.rows.push_back({line.name});
-    for (const double movers : counts) table.rows.back().push_back(cell_of(line, movers));
-  }
+  ReportTable table = table_with(
+      "Success, by movers", lines, counts, [](double movers) { return fixed(movers, 0); }, cell_of);
   table.rows.push_back({"the paper, on its own maps"});
   for (const double movers : counts) table.rows.back().push_back(papers_cell(movers));
   return table;

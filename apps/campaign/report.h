@@ -47,8 +47,7 @@ struct ReportPage {
   std::size_t missing = 0;  ///< runs that no folder has a mark of
 };
 
-/// One file that needs no other: charts, pictures and tables to download are in it. Its links to the runs' folders hold
-/// where it lies in a folder of the campaign's.
+/// One file that needs no other; its links to the runs' folders hold where it lies in a folder of the campaign's.
 [[nodiscard]] std::string html_of(const ReportPage& page);
 /// Refers to charts beside it (charts/NAME.svg) and to pictures (failures/NUMBER.svg, from 1).
 [[nodiscard]] std::string markdown_of(const ReportPage& page);
@@ -72,7 +71,6 @@ struct ReportedTables {
   std::vector<ReportedRow> rows;
 };
 
-/// Whether `folder` holds a campaign.
 [[nodiscard]] bool is_campaign(const std::filesystem::path& folder);
 
 /// The report of one campaign from the folders of its shards: the same for the same runs, however many folders they
@@ -88,16 +86,27 @@ void for_each_run(const std::vector<ReportedTables>& all, const Visit& visit) {
   }
 }
 
+/// A row for each of `rows`, begun with its name, and a column for each of `columns`.
+template <class Rows, class Columns, class Head, class Cell>
+ReportTable table_with(const std::string& title, const Rows& rows, const Columns& columns, const Head& head,
+                       const Cell& cell) {
+  ReportTable table{title, {""}, {}};
+  for (const auto& column : columns) table.head.push_back(head(column));
+  for (const auto& row : rows) {
+    table.rows.push_back({row.name});
+    for (const auto& column : columns) table.rows.back().push_back(cell(row, column));
+  }
+  return table;
+}
+
 /// Most columns of tables and panels by scenario: drawn worlds are more, and have none.
 inline constexpr std::size_t kMostColumns = 12;
 
-/// The tables of one experiment.
 [[nodiscard]] std::vector<ReportTable> tables_of(const ReportedTables& experiment);
 /// Settings against the first that differs in one option or key alone, over runs of the same scenario and seed.
 [[nodiscard]] ReportTable paired_table(const ReportedTables& experiment);
 /// Turns of a row's runs in each bin of PathShape's histogram.
 [[nodiscard]] std::vector<double> turns_of(const ReportedRow& row);
-/// A row a run.
 [[nodiscard]] ReportTable runs_table(const std::vector<ReportedTables>& all);
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> cards_of(const std::vector<ReportedTables>& all);
 
@@ -134,5 +143,23 @@ struct SuccessLine {
 /// Time lost by map: a small panel a map, all with the same axes: a column a row of the experiment, a dot a run; an
 /// open dot at the top did not arrive. Empty for one map or many.
 [[nodiscard]] std::string map_chart(const ReportedTables& tables);
+
+struct Interval {
+  double low = 0.0, high = 1.0;
+};
+
+/// 95 % interval of a share of `runs` that succeeded (Wilson 1927, z = 1.96); of no runs: 0 to 1.
+[[nodiscard]] Interval wilson(std::size_t successes, std::size_t runs);
+
+/// The middle value, the mean of both where there are two; NaN of none. NaN among them are left out.
+[[nodiscard]] double median(std::vector<double> values);
+/// The smallest value that at least `share` of all do not exceed (nearest rank); NaN of none. NaN are left out.
+[[nodiscard]] double quantile(std::vector<double> values, double share);
+/// Half of the 95 % interval of the mean of two values or more (Student's t, by Cornish and Fisher's expansion).
+[[nodiscard]] double half_interval(const std::vector<double>& values);
+[[nodiscard]] double mean(const std::vector<double>& values);
+
+/// With so many digits behind the point, whatever the locale; "-" for NaN.
+[[nodiscard]] std::string fixed(double value, int digits);
 
 }  // namespace jaywalk::campaign

@@ -4,7 +4,6 @@
 #include <functional>
 
 #include "apps/campaign/report.h"
-#include "apps/campaign/statistics.h"
 #include "hal/shown_text.h"
 
 namespace jaywalk::campaign {
@@ -136,19 +135,13 @@ bool has_social_movers(const ReportedTables& tables) {
 
 /// Median, 95th percentile and largest of runs that arrived.
 ReportTable figure_table(const ReportedTables& tables, const char* title, const std::vector<RideFigure>& figures) {
-  ReportTable table{title, {""}, {}};
-  for (const RideFigure& figure : figures) table.head.emplace_back(figure.name);
-  for (const ReportedRow& row : tables.rows) {
-    table.rows.push_back({row.name});
-    for (const RideFigure& figure : figures) {
-      const std::vector<double> values = values_of(row.runs, of_arrived(figure.of));
-      const double rare = figure.less_is_worse ? 0.05 : 0.95, worst = figure.less_is_worse ? 0.0 : 1.0;
-      table.rows.back().push_back(fixed(median(values), figure.digits) + " / " +
-                                  fixed(quantile(values, rare), figure.digits) + " / " +
-                                  fixed(quantile(values, worst), figure.digits));
-    }
-  }
-  return table;
+  const auto cell = [](const ReportedRow& row, const RideFigure& figure) {
+    const std::vector<double> values = values_of(row.runs, of_arrived(figure.of));
+    const double rare = figure.less_is_worse ? 0.05 : 0.95, worst = figure.less_is_worse ? 0.0 : 1.0;
+    return fixed(median(values), figure.digits) + " / " + fixed(quantile(values, rare), figure.digits) + " / " +
+           fixed(quantile(values, worst), figure.digits);
+  };
+  return table_with(title, tables.rows, figures, std::mem_fn(&RideFigure::name), cell);
 }
 
 /// A row for each setting of which a person steered runs.
@@ -172,17 +165,12 @@ ReportTable stick_table(const ReportedTables& tables) {
 /// A cell for each scenario, of the runs that the row has there.
 ReportTable by_scenario(const ReportedTables& tables, const std::string& title,
                         const std::function<std::string(const std::vector<ReportedRun>&)>& cell) {
-  ReportTable table{title, {""}, {}};
-  for (const std::string& scenario : tables.experiment->scenarios) table.head.push_back(scenario);
-  for (const ReportedRow& row : tables.rows) {
-    table.rows.push_back({row.name});
-    for (const std::string& scenario : tables.experiment->scenarios) {
-      std::vector<ReportedRun> there = row.runs;
-      std::erase_if(there, [&](const ReportedRun& run) { return run.run->scenario != scenario; });
-      table.rows.back().push_back(cell(there));
-    }
-  }
-  return table;
+  const auto there = [&](const ReportedRow& row, const std::string& scenario) {
+    std::vector<ReportedRun> runs = row.runs;
+    std::erase_if(runs, [&](const ReportedRun& run) { return run.run->scenario != scenario; });
+    return cell(runs);
+  };
+  return table_with(title, tables.rows, tables.experiment->scenarios, std::identity(), there);
 }
 
 std::string length_cell(const std::vector<ReportedRun>& runs) {
@@ -191,21 +179,17 @@ std::string length_cell(const std::vector<ReportedRun>& runs) {
 
 /// Bins of 10 degrees, the rare wide ones together.
 ReportTable turn_table(const ReportedTables& tables) {
-  constexpr std::array<std::size_t, 7> kEdges{0, 1, 2, 3, 6, 9, kTurnBins};
-  ReportTable table{"Turning angles every 0.25 m, % of all", {""}, {}};
-  for (std::size_t k = 0; k + 1 < kEdges.size(); ++k)
-    table.head.push_back(std::to_string(10 * kEdges[k]) + "-" + std::to_string(10 * kEdges[k + 1]) + " deg");
-  for (const ReportedRow& row : tables.rows) {
+  using Bins = std::pair<std::ptrdiff_t, std::ptrdiff_t>;  // first, end
+  constexpr std::array<Bins, 6> kBins{{{0, 1}, {1, 2}, {2, 3}, {3, 6}, {6, 9}, {9, kTurnBins}}};
+  const auto head = [](const Bins& bins) {
+    return std::to_string(10 * bins.first) + "-" + std::to_string(10 * bins.second) + " deg";
+  };
+  const auto cell = [](const ReportedRow& row, const Bins& bins) {
     const std::vector<double> turns = turns_of(row);
-    const double all = sum_of(turns);
-    table.rows.push_back({row.name});
-    for (std::size_t k = 0; k + 1 < kEdges.size(); ++k) {
-      const double some = sum_of({turns.begin() + static_cast<std::ptrdiff_t>(kEdges[k]),
-                                  turns.begin() + static_cast<std::ptrdiff_t>(kEdges[k + 1])});
-      table.rows.back().push_back(fixed(100.0 * some / all, 2));
-    }
-  }
-  return table;
+    const double some = sum_of({turns.begin() + bins.first, turns.begin() + bins.second});
+    return fixed(100.0 * some / sum_of(turns), 2);
+  };
+  return table_with("Turning angles every 0.25 m, % of all", tables.rows, kBins, head, cell);
 }
 
 /// Whether one axis alone tells two rows apart; not where it is another world: movers and maps are not paired.

@@ -93,10 +93,8 @@ std::vector<RobotRow> robot_rows(const std::filesystem::path& folder) {
 }
 
 const RobotRow& row_at(const std::vector<RobotRow>& rows, double t_s) {
-  const RobotRow* found = &rows.front();
-  for (const RobotRow& row : rows)
-    if (row.t_s <= t_s) found = &row;
-  return *found;
+  const auto after = std::ranges::upper_bound(rows.begin() + 1, rows.end(), t_s, {}, &RobotRow::t_s);
+  return *(after - 1);
 }
 
 std::string where(const RobotRow& row) {

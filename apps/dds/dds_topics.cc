@@ -17,7 +17,7 @@
 
 namespace jaywalk::dds {
 namespace {
-constexpr std::int32_t kPoseDepth = 10;
+constexpr std::int32_t kDepth = 10;  ///< messages that are kept, as ROS 2 does
 
 dds_entity_t make_topic(dds_entity_t participant, const dds_topic_descriptor_t& type, const std::string& topic) {
   return checked(dds_create_topic(participant, &type, ("rt" + topic).c_str(), nullptr, nullptr), topic);
@@ -61,7 +61,6 @@ const PassedOn* passed_on(const std::string& topic) {
 }
 
 constexpr std::size_t kEncapsulation = 4;
-constexpr std::int32_t kDepth = 10;
 
 Qos qos_of(bool kept) {
   Qos qos = qos_keeping(kept ? 1 : kDepth, true);
@@ -106,10 +105,10 @@ std::string words_of(const PoseOrder& order) {
 }
 
 PoseReader::PoseReader(dds_entity_t participant)
-    : goals_(make_reader(participant, geometry_msgs_msg_dds__PoseStamped__desc, "/goal_pose",
-                         qos_keeping(kPoseDepth, true))),
+    : goals_(
+          make_reader(participant, geometry_msgs_msg_dds__PoseStamped__desc, "/goal_pose", qos_keeping(kDepth, true))),
       places_(make_reader(participant, geometry_msgs_msg_dds__PoseWithCovarianceStamped__desc, "/initialpose",
-                          qos_keeping(kPoseDepth, true))) {}
+                          qos_keeping(kDepth, true))) {}
 
 template <class Message>
 std::optional<PoseOrder> PoseReader::newest(dds_entity_t reader) {

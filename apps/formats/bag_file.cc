@@ -2,6 +2,7 @@
 
 #include <bzlib.h>
 #include <lz4frame.h>
+#include <sqlite3.h>
 #include <yaml-cpp/yaml.h>
 #include <zstd.h>
 
@@ -131,6 +132,71 @@ class UnpackedFile {
  private:
   std::filesystem::path path_;
 };
+
+struct Closes {
+  void operator()(sqlite3* database) const { sqlite3_close(database); }
+  void operator()(sqlite3_stmt* statement) const { sqlite3_finalize(statement); }
+};
+
+/// rosbag2's first storage: the tables topics and messages of an SQLite 3 file.
+class Database {
+ public:
+  explicit Database(const std::filesystem::path& file) : file_(file) {
+    sqlite3* opened = nullptr;
+    const int code = sqlite3_open_v2(file.c_str(), &opened, SQLITE_OPEN_READONLY, nullptr);
+    database_.reset(opened);
+    if (code != SQLITE_OK) refuse("no SQLite file that can be read");
+    sqlite3_db_config(opened, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);  // its tables are a stranger's
+    sqlite3_db_config(opened, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
+    sqlite3_db_config(opened, SQLITE_DBCONFIG_ENABLE_VIEW, 0, nullptr);
+  }
+  void ask(const char* query) {
+    sqlite3_stmt* made = nullptr;
+    if (sqlite3_prepare_v2(database_.get(), query, -1, &made, nullptr) != SQLITE_OK) refuse_as_sqlite();
+    answer_.reset(made);
+  }
+  /// Moves on to the next row of the answer; false at its end.
+  bool next() {
+    const int code = sqlite3_step(answer_.get());
+    if (code != SQLITE_ROW && code != SQLITE_DONE) refuse_as_sqlite();
+    return code == SQLITE_ROW;
+  }
+  [[nodiscard]] std::int64_t number(int column) const { return sqlite3_column_int64(answer_.get(), column); }
+  [[nodiscard]] std::string_view bytes(int column) const {
+    const void* at = sqlite3_column_blob(answer_.get(), column);
+    const int size = sqlite3_column_bytes(answer_.get(), column);
+    return at == nullptr ? "" : std::string_view(static_cast<const char*>(at), static_cast<std::size_t>(size));
+  }
+  [[noreturn]] void refuse(const std::string& cause) const {
+    throw StartupError(file_.string() + ": " + cause,
+                       "take an undamaged copy of it, or what 'sqlite3 FILE .recover' makes of this one");
+  }
+
+ private:
+  [[noreturn]] void refuse_as_sqlite() const { refuse(std::string("SQLite says: ") + sqlite3_errmsg(database_.get())); }
+
+  std::filesystem::path file_;
+  std::unique_ptr<sqlite3, Closes> database_;
+  std::unique_ptr<sqlite3_stmt, Closes> answer_;  ///< to the last question
+};
+
+void read_sqlite_bag(const std::filesystem::path& file, const BagSink& sink) {
+  Database database(file);
+  database.ask("PRAGMA quick_check(1)");
+  if (!database.next() || database.bytes(0) != "ok")
+    database.refuse("damaged or cut: " + std::string(database.bytes(0)));
+  database.ask(
+      "SELECT m.id, t.id IS NULL, t.name, t.type, t.serialization_format, m.timestamp, m.data "
+      "FROM messages m LEFT JOIN topics t ON t.id = m.topic_id ORDER BY m.timestamp, m.id");
+  while (database.next()) {
+    if (database.number(1) != 0)
+      database.refuse("message " + std::to_string(database.number(0)) +
+                      " is of a topic that the bag does not describe");
+    if (database.bytes(4) != "cdr") continue;
+    const Time logged{std::chrono::nanoseconds(database.number(5))};
+    sink({database.bytes(2), ros1_name(database.bytes(3)), Wire::kCdr, logged, database.bytes(6)});
+  }
+}
 
 /// Returns what was left out, as read_bag().
 std::string read_file(const std::filesystem::path& file, const BagSink& sink) {

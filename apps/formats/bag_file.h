@@ -1,5 +1,6 @@
 #pragma once
-// Recordings of ROS's tools, a message at a time: MCAP files, ROS 2 bags (folders, sqlite3), ROS 1 bags.
+// Recordings of ROS's tools, a message at a time and as a log to replay: MCAP files, ROS 2 bags (folders, sqlite3),
+// ROS 1 bags.
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -9,6 +10,7 @@
 #include <string>
 #include <string_view>
 
+#include "apps/formats/logs/recorded_log.h"
 #include "apps/formats/wire_reader.h"
 #include "hal/text_file.h"
 #include "hal/types/time.h"
@@ -69,13 +71,27 @@ using BagSink = std::function<void(const BagMessage&)>;
 /// cannot be read or is damaged: all check sums that a format has are checked.
 [[nodiscard]] std::string read_bag(const std::filesystem::path& path, const BagSink& sink);
 
-/// The single formats; read_bag() tells them apart.
+/// Single formats; read_bag() tells them apart.
 [[nodiscard]] std::string read_mcap(const std::filesystem::path& file, const BagSink& sink);
 void read_ros1_bag(const std::filesystem::path& file, const BagSink& sink);
-void read_sqlite_bag(const std::filesystem::path& file, const BagSink& sink);
 
 /// An MCAP file's first attachment of that name; 0 bytes where there is none, or it is no MCAP file. Throws
 /// StartupError as read_mcap().
 [[nodiscard]] FilePart find_attachment(const std::filesystem::path& file, std::string_view name);
+
+struct BagOptions {
+  std::string scan_topic = {};                 ///< empty: the only one of type LaserScan
+  std::string odom_topic = {};                 ///< empty: the only one of type Odometry, where there is one
+  std::optional<Pose2> robot_from_laser = {};  ///< in place of what the recording's frames say
+  Pose2 otherwise = {};                        ///< where neither says it
+};
+
+/// Topics are told by their types; more than one of a type, and none of LaserScan, is an error that lists them. The
+/// mount comes from the frames (/tf_static, and what never moves in /tf) between the odometry's child, else base_link
+/// or base_footprint, and the scan's. Stamps are the headers', or where those are 0 the times of recording. Scans of
+/// more than 2,048 beams are thinned out evenly; sweeps longer than from scan to scan give way to
+/// RecordedLog::spinning_sweep. The log's remark says what was chosen. Leaves out and throws as read_bag() and
+/// load_scan_odom() do; throws StartupError where the laser is not level, too.
+[[nodiscard]] sim::RecordedLog load_bag(const std::filesystem::path& path, const BagOptions& options);
 
 }  // namespace jaywalk::exchange

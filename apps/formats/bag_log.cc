@@ -1,5 +1,3 @@
-#include "apps/formats/bag_log.h"
-
 #include <algorithm>
 #include <cmath>
 #include <map>

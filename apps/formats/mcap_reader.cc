@@ -98,6 +98,7 @@ class McapMessages {
     }
     if (!in.ok()) file_.refuse("a record that is too short for what it is");
   }
+  [[nodiscard]] std::size_t passed() const { return passed_; }
 
  private:
   void add_channel(WireReader& in) {
@@ -113,7 +114,9 @@ class McapMessages {
     (void)in.u64();  // when it was published
     const auto channel = channels_.find(number);
     if (channel == channels_.end()) file_.refuse("a message of a channel that the file does not describe");
-    if (in.ok()) sink_({channel->second.topic, channel->second.type, channel->second.wire, logged, in.rest()});
+    if (!in.ok()) return;
+    ++passed_;
+    sink_({channel->second.topic, channel->second.type, channel->second.wire, logged, in.rest()});
   }
   void open_chunk(WireReader& in) {
     (void)in.u64(), (void)in.u64();  // of its first and last message
@@ -137,6 +140,7 @@ class McapMessages {
   const BagSink& sink_;
   std::map<std::uint16_t, std::string> schemas_;
   std::map<std::uint16_t, Channel> channels_;
+  std::size_t passed_ = 0;
 };
 
 bool is_mcap(const std::filesystem::path& path) {
@@ -149,19 +153,14 @@ bool is_mcap(const std::filesystem::path& path) {
 
 std::string read_mcap(const std::filesystem::path& path, const BagSink& sink) {
   McapFile file(path);
-  std::size_t passed = 0;
-  const BagSink counting = [&](const BagMessage& message) {
-    ++passed;
-    sink(message);
-  };
-  McapMessages messages(file, counting);
+  McapMessages messages(file, sink);
   while (file.next()) messages.take(file.op(), file.body());
   if (!file.is_cut()) {
     file.check_data_end();
     return "";
   }
-  if (passed == 0) file.refuse("the file is cut short, and no message is whole");
-  return file.cut_at() + ": the " + std::to_string(passed) + " whole messages before count\n";
+  if (messages.passed() == 0) file.refuse("the file is cut short, and no message is whole");
+  return file.cut_at() + ": the " + std::to_string(messages.passed()) + " whole messages before count\n";
 }
 
 FilePart find_attachment(const std::filesystem::path& path, std::string_view name) {

@@ -1,7 +1,6 @@
 #pragma once
-// MCAP files (mcap.dev/spec): records of messages in chunks packed with zstd, each with an index, a summary at the end.
-#include <zlib.h>
-
+// MCAP files (mcap.dev/spec): records of messages in chunks packed with zstd, each with an index, a summary at the end;
+// and a run as one.
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
@@ -10,9 +9,14 @@
 #include <string_view>
 #include <vector>
 
+#include "apps/formats/ros_topics.h"
+#include "firmware/control_setup.h"
+#include "hal/text_file.h"
 #include "hal/types/time.h"
+#include "planner/tracking/tracker.h"
 
-namespace jaywalk::exchange {
+namespace jaywalk {
+namespace exchange {
 
 /// Writes one file. What was written before a crash is read up to the last whole chunk. Thread: any, one at a time.
 class McapWriter {
@@ -42,7 +46,10 @@ class McapWriter {
   [[nodiscard]] std::uint64_t last_ns() const { return last_ns_; }
 
  private:
-  void put(std::string_view bytes);
+  void put(std::string_view bytes) {
+    out_.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    offset_ += bytes.size();
+  }
   void put_chunk();
   [[nodiscard]] std::string statistics() const;
 
@@ -83,4 +90,26 @@ enum McapOp : std::uint8_t {
       crc32(so_far, reinterpret_cast<const Bytef*>(bytes.data()), static_cast<uInt>(bytes.size())));
 }
 
-}  // namespace jaywalk::exchange
+}  // namespace exchange
+
+/// A run as an MCAP file, tick by tick, and a metadata.yaml beside it. Thread: one, between ticks.
+class RunExporter {
+ public:
+  /// Throws StartupError when the file cannot be made.
+  RunExporter(const std::filesystem::path& file, const ControlSetup& setup);
+
+  /// Messages of one tick, with the tracker's state after it.
+  void add(const TickRecord& t, const Tracker& tracker);
+  /// Attaches the recording, where there is one (else empty) in one file, so that `jaywalk replay` comes to the same
+  /// commands, and ends the files. Throws StartupError where the disk did not take all.
+  void finish(const std::filesystem::path& recording);
+  [[nodiscard]] const exchange::McapWriter& file() const { return file_; }
+
+ private:
+  std::filesystem::path path_;
+  exchange::McapWriter file_;
+  RobotModel model_;
+  exchange::RosTopics topics_;
+};
+
+}  // namespace jaywalk

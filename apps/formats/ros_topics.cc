@@ -71,7 +71,7 @@ void marker(CdrWriter& out, const Track& track, Time time, const char* space, st
 }
 
 /// sensor_msgs/PointCloud2 of the hits, in the laser's frame.
-std::string points(const LaserScan& scan, Time time, const std::string& frame) {
+void points(CdrWriter& out, const LaserScan& scan, Time time, const std::string& frame) {
   constexpr unsigned kFloat32 = 7;
   constexpr std::size_t kPointBytes = 12;
   CdrWriter data;  // for its numbers alone
@@ -82,7 +82,6 @@ std::string points(const LaserScan& scan, Time time, const std::string& frame) {
     data.f32(p.x).f32(p.y).f32(0.0);
     ++hits;
   }
-  CdrWriter out;
   header(out, time, frame);
   out.u32(1).u32(hits).u32(3);
   std::size_t offset = 0;
@@ -91,12 +90,10 @@ std::string points(const LaserScan& scan, Time time, const std::string& frame) {
     offset += sizeof(float);
   }
   out.u8(0).u32(kPointBytes).u32(kPointBytes * hits).bytes(std::string_view(data.message()).substr(4)).u8(1);
-  return out.message();
 }
 
 /// nav_msgs/Odometry: the wheels' pose in odom, and their speed.
-std::string odometry(const RobotFrames& frames, const WheelState& wheels, const DriveModel& drive, Time time) {
-  CdrWriter out;
+void odometry(CdrWriter& out, const RobotFrames& frames, const WheelState& wheels, const DriveModel& drive, Time time) {
   header(out, time, "odom");
   out.text("base_link");
   pose(out, frames.odom_from_robot);
@@ -104,47 +101,32 @@ std::string odometry(const RobotFrames& frames, const WheelState& wheels, const 
   const double left = drive.wheel_radius_m * wheels.left_radps, right = drive.wheel_radius_m * wheels.right_radps;
   twist(out, {0.5 * (left + right), (right - left) / drive.track_width_m});
   covariance(out);
-  return out.message();
 }
 
 /// tf2_msgs/TFMessage: map to odom, odom to base_link.
-std::string transforms(const RobotFrames& frames, Time time) {
-  CdrWriter out;
+void transforms(CdrWriter& out, const RobotFrames& frames, Time time) {
   out.u32(2);
   transform(out, time, "map", "odom", frames.map_from_odom);
   transform(out, time, "odom", "base_link", frames.odom_from_robot);
-  return out.message();
 }
 
 /// tf2_msgs/TFMessage: base_link to each laser.
-std::string static_transforms(const RobotModel& model, Time time) {
-  CdrWriter out;
+void static_transforms(CdrWriter& out, const RobotModel& model, Time time) {
   const OfEach<LaserModel> lasers = model.lasers();
   out.u32(static_cast<std::uint32_t>(lasers.size()));
   for (std::size_t k = 0; k < lasers.size(); ++k)
     transform(out, time, "base_link", of_scanner("laser", model, k), lasers[k].robot_from_laser);
-  return out.message();
-}
-
-/// geometry_msgs/Twist: what the supervisor permitted.
-std::string command(const TickRecord& tick) {
-  CdrWriter out;
-  twist(out, tick.verdict.permitted);
-  return out.message();
 }
 
 /// geometry_msgs/PoseStamped.
-std::string goal_pose(const OperatorInput& input, Time time) {
-  CdrWriter out;
+void goal_pose(CdrWriter& out, const OperatorInput& input, Time time) {
   header(out, time, "map");
   const double heading = input.wants_heading() ? input.goal_heading_rad : 0.0;
   pose(out, {input.goal_in_map.x, input.goal_in_map.y, heading});
-  return out.message();
 }
 
 /// nav_msgs/Path.
-std::string path(const PlannedPath& path, Time time) {
-  CdrWriter out;
+void path(CdrWriter& out, const PlannedPath& path, Time time) {
   header(out, time, "map");
   out.u32(path.points.size());
   for (std::size_t k = 0; k < path.points.size(); ++k) {
@@ -153,14 +135,12 @@ std::string path(const PlannedPath& path, Time time) {
     header(out, time, "map");
     pose(out, {here.x, here.y, std::atan2(ahead.y - here.y, ahead.x - here.x)});
   }
-  return out.message();
 }
 
 /// visualization_msgs/MarkerArray: a cylinder a track, red where it moves, and a line ("expected") to where it will be
 /// in 2.5 s if it goes straight on.
-std::string tracks(std::span<const Track> tracks, Time stamp) {
+void tracks(CdrWriter& out, std::span<const Track> tracks, Time stamp) {
   constexpr double kAheadS = 2.5;
-  CdrWriter out;
   const auto moving = std::count_if(tracks.begin(), tracks.end(), [](const Track& t) { return t.moving; });
   out.u32(tracks.size() + static_cast<std::size_t>(moving));
   for (const Track& track : tracks) {
@@ -168,26 +148,16 @@ std::string tracks(std::span<const Track> tracks, Time stamp) {
     const std::array line{track.position_in_map, track.position_in_map + track.velocity_in_map * kAheadS};
     if (track.moving) marker(out, track, stamp, "expected", line);
   }
-  return out.message();
-}
-
-/// rosgraph_msgs/Clock.
-std::string clock(Time now) {
-  CdrWriter out;
-  stamp(out, now);
-  return out.message();
 }
 
 /// diagnostic_msgs/DiagnosticArray: reasons, plan, gap.
-std::string diagnostics(const TickRecord& tick, Time time) {
+void diagnostics(CdrWriter& out, const TickRecord& tick, Time time) {
   constexpr unsigned kOk = 0, kWarn = 1, kError = 2;
   const std::string reasons = to_string(tick.verdict.reasons, tick.verdict.faulty_scanners);
-  CdrWriter out;
   header(out, time, "");
   out.u32(1).u8(has(tick.verdict.reasons, Reason::kLatched) ? kError : reasons.empty() ? kOk : kWarn);
   out.text("jaywalk supervisor").text(reasons.empty() ? "drives as planned" : reasons).text("").u32(2);
   out.text("plan").text(name_of(tick.plan_status)).text("gap_m").text(formatted("%.3f", tick.verdict.gap_m));
-  return out.message();
 }
 
 /// nav_msgs/OccupancyGrid of what is known: 100 occupied, 0 seen free, -1 unknown.
@@ -248,6 +218,14 @@ std::vector<NamedTopic> topics_of(const RobotModel& model) {
   return topics;
 }
 
+template <class Write, class... Parts>
+void RosTopics::say(RosTopicNumber topic, Time time, Write write, const Parts&... parts) {
+  if (!wants(topic)) return;
+  CdrWriter out;
+  write(out, parts...);
+  push_(topic, time, out.message());
+}
+
 void RosTopics::forget(std::uint32_t topics) {
   if ((topics & (bit(kScan) | bit(kPoints) | bit(kTracks))) != 0) scans_seen_[0] = 0;
   if ((topics & bit(kPlan)) != 0) plan_seen_ = kNever;
@@ -272,14 +250,14 @@ void RosTopics::add(const TickRecord& t, std::span<const Track> tracks, const Pl
   if (wanted == 0) return;
   const Time now = wall(t.now);
   const RobotFrames frames = frames_at(t, model);
-  if (wants(kTfStatic) && !std::exchange(told_static_, true)) push_(kTfStatic, now, static_transforms(model, now));
-  if (wants(kClock)) push_(kClock, now, clock(now));
-  if (wants(kTf)) push_(kTf, now, transforms(frames, now));
-  if (wants(kOdom)) push_(kOdom, now, odometry(frames, t.wheels, model.drive, now));
-  if (wants(kCmdVel)) push_(kCmdVel, now, command(t));
+  if (wants(kTfStatic) && !std::exchange(told_static_, true)) say(kTfStatic, now, static_transforms, model, now);
+  say(kClock, now, stamp, now);
+  say(kTf, now, transforms, frames, now);
+  say(kOdom, now, odometry, frames, t.wheels, model.drive, now);
+  say(kCmdVel, now, twist, t.verdict.permitted);
   add_scans(t, tracks, model);
   if (wants(kPlan) && !path.points.empty() && path.stamp != plan_seen_) {
-    push_(kPlan, now, exchange::path(path, wall(path.stamp)));
+    say(kPlan, now, exchange::path, path, wall(path.stamp));
     plan_seen_ = path.stamp;
   }
   add_goal(t);
@@ -295,8 +273,8 @@ void RosTopics::add_scans(const TickRecord& t, std::span<const Track> tracks, co
     const std::size_t topic = k == 0 ? std::size_t{kScan} : kOtherScans + k - 1;
     if (wants(topic)) push_(topic, now, laser_scan(scan, wall(scan.stamp), frame));
     if (k > 0) continue;
-    if (wants(kPoints)) push_(kPoints, now, points(scan, wall(scan.stamp), frame));
-    if (wants(kTracks)) push_(kTracks, now, exchange::tracks(tracks, now));
+    say(kPoints, now, points, scan, wall(scan.stamp), frame);
+    say(kTracks, now, exchange::tracks, tracks, now);
   }
 }
 
@@ -304,15 +282,14 @@ void RosTopics::add_goal(const TickRecord& t) {
   const OperatorInput &now = t.input, &before = goal_seen_;
   const bool same =
       now.goal_in_map == before.goal_in_map && same_heading(now.goal_heading_rad, before.goal_heading_rad);
-  if (now.has_goal && wants(kGoal) && !(before.has_goal && same))
-    push_(kGoal, wall(t.now), goal_pose(now, wall(t.now)));
+  if (now.has_goal && !(before.has_goal && same)) say(kGoal, wall(t.now), goal_pose, now, wall(t.now));
   goal_seen_ = now;
 }
 
 void RosTopics::add_diagnostics(const TickRecord& t) {
   const bool is_due = told_ == kNever || age(told_, t.now) >= kDiagnosticsEvery;
   if (!is_due && t.verdict.reasons == reasons_) return;
-  push_(kDiagnostics, wall(t.now), diagnostics(t, wall(t.now)));
+  say(kDiagnostics, wall(t.now), diagnostics, t, wall(t.now));
   reasons_ = t.verdict.reasons;
   told_ = t.now;
 }

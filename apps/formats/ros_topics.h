@@ -65,11 +65,9 @@ inline constexpr std::array<RosTopic, 12> kRosTopics{{{"/scan", "sensor_msgs/msg
                                                       {"/cmd_vel", "geometry_msgs/msg/Twist"},
                                                       {"/tf_static", "tf2_msgs/msg/TFMessage", true},
                                                       {"/clock", "rosgraph_msgs/msg/Clock"}}};
-inline constexpr std::uint32_t kAllTopics = (1U << kRosTopics.size()) - 1U;
-/// First number of a robot's other scanners' scans, which kAllTopics does not ask for.
+/// First number of a robot's other scanners' scans.
 inline constexpr std::size_t kOtherScans = kRosTopics.size();
 
-/// A topic as it is published.
 struct NamedTopic {
   std::string name;  ///< "/scan_front" where there are several scanners
   std::string type;
@@ -83,6 +81,7 @@ class RosTopics {
  public:
   /// A message in CDR of the topic of that number.
   using Push = std::function<void(std::size_t topic, Time stamp, std::string message)>;
+  static constexpr std::uint32_t kAllTopics = ~0U;
 
   /// `unix_from_loop` is added to all stamps.
   explicit RosTopics(Push push, Duration unix_from_loop = Duration{0})
@@ -100,6 +99,9 @@ class RosTopics {
   void forget(std::uint32_t topics);
   [[nodiscard]] bool wants(std::size_t topic) const { return (wanted_ >> topic & 1U) != 0; }
   [[nodiscard]] Time wall(Time loop) const { return loop + unix_from_loop_; }
+  /// Sends the message that `write` makes of `parts`, where its topic is wanted.
+  template <class Write, class... Parts>
+  void say(RosTopicNumber topic, Time time, Write write, const Parts&... parts);
   [[nodiscard]] RobotFrames frames_at(const TickRecord& t, const RobotModel& model);
   void add_scans(const TickRecord& t, std::span<const Track> tracks, const RobotModel& model);
   void add_goal(const TickRecord& t);

@@ -7,8 +7,8 @@
 #include <csignal>
 #include <cstdio>
 #include <fstream>
-#include <functional>
 #include <iostream>
+#include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -20,8 +20,8 @@
 #include "apps/why/recorded_run.h"
 #include "firmware/control_setup.h"
 #include "firmware/recording/recorder.h"
-#include "firmware/robot/commissioned.h"
 #include "firmware/robot/control_socket.h"
+#include "firmware/robot/preflight.h"
 #include "firmware/robot/realtime.h"
 #include "firmware/robot/robot_devices.h"
 #include "hal/shown_text.h"
@@ -56,36 +56,31 @@ struct Panel {
   }
 };
 
-double greatest(const Calibration& calibration, const std::function<double(const MotionResidual&)>& of) {
-  double most = 1e-6;
-  for (const auto* residuals : {&calibration.before, &calibration.after})
-    for (const MotionResidual& each : *residuals) most = std::max(most, of(each));
-  return most;
-}
-
 /// The residuals, as believed and as found: x and y (mm) and turns (mrad). An SVG without a script.
 std::string svg_of(const Calibration& calibration) {
-  const Panel ways{kMargin, 1e3 * greatest(calibration, [](const MotionResidual& r) {
-                              return std::max(std::fabs(r.x_m), std::fabs(r.y_m));
-                            })};
-  const Panel turns{2.0 * kMargin + kSide,
-                    1e3 * greatest(calibration, [](const MotionResidual& r) { return std::fabs(r.turn_rad); })};
-  const std::string head = formatted(
+  double way_m = 1e-6, turn_rad = 1e-6;  // the greatest
+  for (const auto* residuals : {&calibration.before, &calibration.after}) {
+    for (const Pose2& r : *residuals) {
+      way_m = std::max({way_m, std::fabs(r.x), std::fabs(r.y)});
+      turn_rad = std::max(turn_rad, std::fabs(r.heading));
+    }
+  }
+  const Panel ways{kMargin, 1e3 * way_m}, turns{2.0 * kMargin + kSide, 1e3 * turn_rad};
+  std::string svg = formatted(
       "<svg xmlns='http://www.w3.org/2000/svg' width='%.0f' height='%.0f' font-family='sans-serif' "
       "font-size='13'>\n<rect width='100%%' height='100%%' fill='white'/>\n",
       3.0 * kMargin + 2.0 * kSide, 2.0 * kMargin + kSide);
-  std::string svg = head + ways.frame("wheels less scans: x, y (mm)") + turns.frame("turn (mrad), by motion");
+  svg += ways.frame("wheels less scans: x, y (mm)") + turns.frame("turn (mrad), by motion");
   for (const auto& [residuals, colour] :
        {std::pair{&calibration.before, kBelieved}, std::pair{&calibration.after, kFoundColour}}) {
     for (std::size_t k = 0; k < residuals->size(); ++k) {
-      const MotionResidual& r = (*residuals)[k];
+      const Pose2& r = (*residuals)[k];
       const double along = 2.0 * static_cast<double>(k + 1) / static_cast<double>(residuals->size() + 1) - 1.0;
-      svg += ways.dot(1e3 * r.x_m, 1e3 * r.y_m, colour) + turns.dot(along * turns.most, 1e3 * r.turn_rad, colour);
+      svg += ways.dot(1e3 * r.x, 1e3 * r.y, colour) + turns.dot(along * turns.most, 1e3 * r.heading, colour);
     }
   }
-  const std::string foot = formatted("<text x='%.0f' y='%.0f'>grey: as believed; blue: as found</text>\n</svg>\n",
-                                     kMargin, kSide + 2.0 * kMargin - 18.0);
-  return svg + foot;
+  return svg + formatted("<text x='%.0f' y='%.0f'>grey: as believed; blue: as found</text>\n</svg>\n", kMargin,
+                         kSide + 2.0 * kMargin - 18.0);
 }
 
 struct SessionOptions {
@@ -131,7 +126,10 @@ class ArmedSession {
     devices_ = std::make_unique<RobotDevices>(file_, clock_);
     devices_->start();
     for (const auto& laser : devices_->lasers()) lasers_.push_back(laser.get());
-    require_realtime(file_.realtime, enter_fully());  // before the drives may turn a wheel
+    std::vector<std::string> refused;
+    if (file_.realtime.lock_memory) refused = lock_memory();
+    std::ranges::move(enter_realtime(file_.realtime), std::back_inserter(refused));
+    require_realtime(file_.realtime, refused);  // before the drives may turn a wheel
     static_cast<void>(devices_->drive().arm());
   }
   /// Disarms the drives, which are at rest already.
@@ -151,15 +149,6 @@ class ArmedSession {
   }
 
  private:
-  /// Makes this thread real-time and locks its memory, as the robot file asks. Returns a line for each refusal by the
-  /// kernel.
-  [[nodiscard]] std::vector<std::string> enter_fully() const {
-    std::vector<std::string> refused;
-    if (file_.realtime.lock_memory) refused = lock_memory();
-    for (std::string& line : enter_realtime(file_.realtime)) refused.push_back(std::move(line));
-    return refused;
-  }
-
   RobotFile file_;
   SteadyClock clock_;
   std::unique_ptr<ControlSocket> socket_;
@@ -306,7 +295,7 @@ int commission_robot(const SessionOptions& options) {
   for (const CheckedPart& check : checks)
     std::printf("%-4s  %-15s %s\n", check.is_well ? "ok" : "FAIL", check.part.c_str(), check.said.c_str());
   write_commissioned(options.robot, file, checks);
-  return std::all_of(checks.begin(), checks.end(), [](const CheckedPart& check) { return check.is_well; }) ? 0 : 1;
+  return std::ranges::all_of(checks, &CheckedPart::is_well) ? 0 : 1;
 }
 
 /// Options of a command that arms the drives.

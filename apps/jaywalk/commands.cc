@@ -1,8 +1,6 @@
 #include "apps/jaywalk/commands.h"
 
-#include <cmath>
-
-#include "hal/shown_text.h"
+#include "firmware/recording/map_files.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk {
@@ -15,22 +13,6 @@ std::uint16_t port_of(const std::string& word) {
 }
 
 }  // namespace
-
-template <class Place>
-void add_place(CLI::App& command, const std::string& name, std::optional<Place>& chosen,
-               const std::string& description) {
-  constexpr bool kIsPose = std::is_same_v<Place, Pose2>;
-  const auto take = [&chosen, name](const std::vector<double>& v) {
-    for (const double value : v)
-      if (!(std::fabs(value) <= 1e6))
-        throw StartupError(name + formatted(": %g is no place", value), "give metres and radians");
-    chosen = {v[0], v[1]};
-    if constexpr (kIsPose) chosen->heading = wrap_angle(v[2]);
-  };
-  command.add_option_function<std::vector<double>>(name, take, description)->delimiter(',')->expected(kIsPose ? 3 : 2);
-}
-template void add_place(CLI::App&, const std::string&, std::optional<Vec2>&, const std::string&);
-template void add_place(CLI::App&, const std::string&, std::optional<Pose2>&, const std::string&);
 
 void add_view(CLI::App& command, std::optional<view::ViewAddress>& chosen) {
   const auto add = [&](const char* name, const char* type, const auto& take, const char* about) {
@@ -51,6 +33,25 @@ void add_view(CLI::App& command, std::optional<view::ViewAddress>& chosen) {
       "Certificate and key for TLS, in PEM (default: self-signed)");
   add("--view-origin", "https://SITE", into(&view::ViewAddress::origin),
       "Pages of this site may look and steer too, such as a Foxglove that is served from there");
+}
+
+void add_loop_options(CLI::App& command, LoopOptions& options) {
+  command.add_option("--out", options.out, "Folder for what the run leaves")->capture_default_str();
+  command.add_flag("--save-map", options.save_map, "Save what the robot saw: map.yaml and map.pgm (map_server)");
+  command.add_flag("--mcap", options.mcap, "Leave run.mcap as well, as export would");
+  command.add_flag("--json", options.json, "Print the summary, in place of a line");
+  add_view(command, options.view);
+}
+
+void conclude(const LoopOptions& options, LoopRunner& runner, RunEnd end, const std::string& told) {
+  const std::filesystem::path drawn = runner.finish(std::move(end));
+  if (options.save_map) save_map(runner.loop().tracker().still(), options.out);
+  runner.require_recorded();
+  if (options.json)
+    print_summary(options.out);
+  else
+    std::printf("%s; see %s\n", told.c_str(), drawn.c_str());
+  std::fflush(stdout);
 }
 
 }  // namespace jaywalk

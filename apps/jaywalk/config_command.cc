@@ -39,15 +39,12 @@ std::string with_unit(const std::string& text, const SettingKey& key) {
   return key.unit[0] == '\0' ? text : text + " " + key.unit;
 }
 
-std::string as_text(const SettingKey& key) {
-  return "  " + path_of(key) + condition_of(key) + ": " + key.meaning + "\n      " + with_unit(allowed(key), key) +
-         "; default: " + default_of(key) + "\n";
-}
-
 std::string as_lines(const FileKeys& file, const std::string& wanted) {
   std::string lines;
   for (const SettingKey& key : file.keys)
-    if (names(wanted, key)) lines += as_text(key);
+    if (names(wanted, key))
+      lines += "  " + path_of(key) + condition_of(key) + ": " + key.meaning + "\n      " +
+               with_unit(allowed(key), key) + "; default: " + default_of(key) + "\n";
   return lines;
 }
 
@@ -161,36 +158,32 @@ Generated: `jaywalk config --explain --markdown >docs/reference/configuration.md
 is needed where its table is. Brackets behind a key name the `kind` that has it. Paths are relative to the file.
 )";
 
-int explain(const std::string& wanted, bool markdown) {
+void explain(const std::string& wanted, bool markdown) {
   const std::array<const FileKeys*, 4> files{&robot_file_keys(), &robot_model_keys(), &sim::scenario_keys(),
                                              &campaign::campaign_keys()};
-  std::string page = markdown ? kSettingsHead : "";
+  std::string sections;
   std::set<std::string> shown_before;
-  bool found = false;
   for (const FileKeys* file : files) {
     const std::string lines = markdown ? as_table(*file, wanted, shown_before) : as_lines(*file, wanted);
     if (lines.empty()) continue;
-    found = true;
-    page += markdown ? "\n## " + std::string(file->title) + "\n\n" : std::string(file->title) + "\n";
-    page += lines;
+    sections += (markdown ? "\n## " + std::string(file->title) + "\n\n" : std::string(file->title) + "\n") + lines;
   }
-  if (!found)
+  if (sections.empty())
     throw StartupError("--explain " + shown(wanted) + ": no file has such a key",
                        "see all of them with jaywalk config --explain");
-  std::fputs(page.c_str(), stdout);
-  return 0;
+  std::printf("%s%s", markdown ? kSettingsHead : "", sections.c_str());
 }
 
 }  // namespace
 
-void add_config(CLI::App& app, int& exit_code) {
+void add_config(CLI::App& app, int& /*exit_code*/) {
   static bool explains = false, markdown = false;
   static std::string key;
   CLI::App* config = app.add_subcommand("config", "Explain the keys of robot, model, scenario and campaign files");
   config->add_flag("--explain", explains, "Print keys with meaning, range, unit and default")->required();
   config->add_option("key", key, "One key, or the end of its path: rate_hz, laser.rate_hz (default: all)");
   config->add_flag("--markdown", markdown, "As the tables of docs/reference/configuration.md");
-  config->callback([&exit_code] { exit_code = explain(key, markdown); });
+  config->callback([] { explain(key, markdown); });
 }
 
 }  // namespace jaywalk

@@ -33,38 +33,27 @@ void print(const FaultResult& row) {
 constexpr std::size_t kKinds = 5;  // of drives
 using Rows = std::span<const FaultResult>;
 
+/// The slowest, and its limit.
 struct Reaction {
   Duration slowest{0}, limit{0};
+
+  void add(const Reaction& other) { slowest = std::max(slowest, other.slowest), limit = std::max(limit, other.limit); }
+  [[nodiscard]] std::string words() const { return formatted("%.0f/%.0f", in_ms(slowest), in_ms(limit)); }
 };
-
-/// Slowest reaction and its limit, of the Pioneer or of all other drives.
-Reaction reaction_in(Rows rows, bool of_pioneer) {
-  Reaction found;
-  for (const FaultResult& row : rows) {
-    if ((row.drive == DriveKind::kPioneer) != of_pioneer) continue;
-    found = {std::max(found.slowest, row.reaction), std::max(found.limit, row.limit)};
-  }
-  return found;
-}
-
-std::string in_words(const Reaction& reaction) {
-  return formatted("%.0f/%.0f", in_ms(reaction.slowest), in_ms(reaction.limit));
-}
 
 /// Cells of a fault's row: the slowest reaction of all drives, the Pioneer's apart where its limit differs, then each
 /// drive's stopping distances, m, by speed.
 std::string figures_of(Rows rows) {
   std::array<std::string, kKinds> ways;
+  Reaction all, pioneer, others;
   for (const FaultResult& row : rows) {
+    all.add({row.reaction, row.limit});
+    (row.drive == DriveKind::kPioneer ? pioneer : others).add({row.reaction, row.limit});
     std::string& way = ways.at(static_cast<std::size_t>(row.drive));
-    const std::string metres = formatted("%s%.2f", way.empty() ? "" : "/", row.stop_distance_m);
-    way += metres;
+    way += formatted("%s%.2f", way.empty() ? "" : "/", row.stop_distance_m);
   }
-  const Reaction others = reaction_in(rows, false), pioneer = reaction_in(rows, true);
   const bool one = others.limit == pioneer.limit || std::min(others.limit, pioneer.limit) == Duration{0};
-  std::string figures =
-      "|" + (one ? in_words({std::max(others.slowest, pioneer.slowest), std::max(others.limit, pioneer.limit)})
-                 : in_words(others) + ", " + in_words(pioneer));
+  std::string figures = "|" + (one ? all.words() : others.words() + ", " + pioneer.words());
   for (const DriveKind kind : {DriveKind::kCia402, DriveKind::kOdrive, DriveKind::kVesc, DriveKind::kPioneer}) {
     const std::string& way = ways.at(static_cast<std::size_t>(kind));
     figures += "|" + (way.empty() ? "-" : way);

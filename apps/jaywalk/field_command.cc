@@ -27,8 +27,8 @@ struct FieldOptions {
   std::filesystem::path out = "out/field";
 };
 
+using paper::FieldQuality;
 using paper::MapField;
-using paper::MapQuality;
 
 /// A goal that is not free is replaced by the nearest cell this near.
 constexpr double kGoalRadius_m = 0.5;
@@ -100,7 +100,7 @@ int run_field(const FieldOptions& options) {
   solver.inflate(static_cast<float>(options.inflation_m / map.cell_m));
   const CellIndex goal = goal_cell(options, map, solver);
   const auto solve = [&] { return options.start_only ? solver.solve_start(goal) : solver.solve_cold(goal); };
-  MapQuality warm, cold;
+  FieldQuality warm, cold;
   const Timing cold_time = time("cold", kRepeats, solver.backend(), [&] { cold = solve(); });
   const Timing warm_time = time("warm", kRepeats, solver.backend(), [&] { warm = solver.solve_warm(goal); });
   cold = solve();

@@ -16,12 +16,8 @@ std::string roff(const std::string& text) {
   bool begins = true;
   for (const char c : text) {
     if (begins && (c == '.' || c == '\'')) out += "\\&";
-    if (c == '\\')
-      out += "\\e";
-    else if (c == '-')
-      out += "\\-";
-    else
-      out += c;
+    if (c == '\\' || c == '-') out += '\\';
+    out += c == '\\' ? 'e' : c;
     begins = c == '\n';
   }
   return out;
@@ -81,13 +77,6 @@ std::map<std::string, std::string> commands_by_item(const CLI::App& app) {
 
 bool is_shared(const std::string& commands) { return commands.find(',') != std::string::npos; }
 
-std::string long_names(const CLI::App& app) {
-  std::string words;
-  for (const CLI::Option* option : app.get_options())
-    for (const std::string& name : option->get_lnames()) words += (words.empty() ? "--" : " --") + name;
-  return words;
-}
-
 /// The words that an option takes, as "full paper"; empty where it takes any value.
 std::string value_words(const CLI::Option& option) {
   std::string words = option.get_type_name();
@@ -99,29 +88,42 @@ std::string value_words(const CLI::Option& option) {
   return words;
 }
 
-std::string bash_choices_of(const CLI::App& command) {
-  std::string text;
-  for (const CLI::Option* option : command.get_options()) {
-    const std::string words = value_words(*option);
-    if (words.empty() || option->get_lnames().empty()) continue;
-    text += "    '" + command.get_name() + " --" + option->get_lnames().front() + "') words='" + words + "' ;;\n";
-  }
-  return text;
+/// A long name of an option, and what a shell should know of it.
+struct LongName {
+  std::string name, about;
+  std::string words;  ///< that the option takes; empty: any value
+  bool takes_value;
+};
+
+std::vector<LongName> long_names_of(const CLI::App& command) {
+  std::vector<LongName> all;
+  for (const CLI::Option* option : command.get_options())
+    for (const std::string& name : option->get_lnames())
+      all.push_back({name, option->get_description(), value_words(*option), option->get_items_expected_max() > 0});
+  return all;
+}
+
+std::string listed(const std::vector<LongName>& options) {
+  std::string words;
+  for (const LongName& option : options) words += (words.empty() ? "--" : " --") + option.name;
+  return words;
 }
 
 std::string bash_completion(const CLI::App& app) {
   std::string names, options, choices;
   for (const CLI::App* command : commands_of(app)) {
     names += command->get_name() + " ";
-    options += "    " + command->get_name() + ") words='" + long_names(*command) + "' ;;\n";
-    choices += bash_choices_of(*command);
+    options += "    " + command->get_name() + ") words='" + listed(long_names_of(*command)) + "' ;;\n";
+    for (const LongName& option : long_names_of(*command))
+      if (!option.words.empty())
+        choices += "    '" + command->get_name() + " --" + option.name + "') words='" + option.words + "' ;;\n";
   }
   return "# bash completion of jaywalk\n_jaywalk() {\n"
          "  local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD - 1]} command='' words='' k\n"
          "  for ((k = 1; k < COMP_CWORD; ++k)); do\n"
          "    [[ ${COMP_WORDS[k]} == -* ]] || { command=${COMP_WORDS[k]}; break; }\n  done\n"
          "  case $command in\n    '') words='" +
-         names + long_names(app) + "' ;;\n" + options +
+         names + listed(long_names_of(app)) + "' ;;\n" + options +
          "  esac\n  [[ -z $command || $word == -* ]] || words=''  # a file, then\n  case \"$command $before\" in\n" +
          choices +
          "  esac\n  mapfile -t COMPREPLY < <(compgen -W \"$words\" -- \"$word\")\n}\n"
@@ -132,12 +134,8 @@ std::string bash_completion(const CLI::App& app) {
 std::string quoted(const std::string& text, const std::string& more, const std::string& apostrophe) {
   std::string out;
   for (const char c : text) {
-    if (c == '\'') {
-      out += apostrophe;
-      continue;
-    }
     if (more.find(c) != std::string::npos) out += '\\';
-    out += c;
+    out += c == '\'' ? apostrophe : std::string(1, c);
   }
   return out;
 }
@@ -145,14 +143,10 @@ std::string quoted(const std::string& text, const std::string& more, const std::
 /// '--mode[full: ...]:mode:(full paper)', an entry of zsh's _arguments.
 std::string zsh_options_of(const CLI::App& command, const std::string& indent) {
   std::string text;
-  for (const CLI::Option* option : command.get_options()) {
-    for (const std::string& name : option->get_lnames()) {
-      const std::string words = value_words(*option);
-      text += indent + "'--" + name + "[" + quoted(option->get_description(), "[]\\:", "'\\''") + "]";
-      if (option->get_items_expected_max() > 0)
-        text += ":" + name + ":" + (words.empty() ? "_files" : "(" + words + ")");
-      text += "' \\\n";
-    }
+  for (const auto& [name, about, words, takes_value] : long_names_of(command)) {
+    text += indent + "'--" + name + "[" + quoted(about, "[]\\:", "'\\''") + "]";
+    if (takes_value) text += ":" + name + ":" + (words.empty() ? "_files" : "(" + words + ")");
+    text += "' \\\n";
   }
   return text;
 }
@@ -173,16 +167,10 @@ std::string zsh_completion(const CLI::App& app) {
 
 std::string fish_options_of(const CLI::App& command, const std::string& condition) {
   std::string text;
-  for (const CLI::Option* option : command.get_options()) {
-    for (const std::string& name : option->get_lnames()) {
-      const std::string words = value_words(*option);
-      text += "complete -c jaywalk -n '" + condition + "' -l " + name;
-      if (!words.empty())
-        text += " -x -a '" + words + "'";
-      else if (option->get_items_expected_max() > 0)
-        text += " -r";
-      text += " -d '" + quoted(option->get_description(), "\\", "\\'") + "'\n";
-    }
+  for (const auto& [name, about, words, takes_value] : long_names_of(command)) {
+    text += "complete -c jaywalk -n '" + condition + "' -l " + name;
+    text += words.empty() ? (takes_value ? " -r" : "") : " -x -a '" + words + "'";
+    text += " -d '" + quoted(about, "\\", "\\'") + "'\n";
   }
   return text;
 }

@@ -7,9 +7,9 @@
 #include <thread>
 
 #include "apps/formats/bag_file.h"
-#include "apps/formats/bag_log.h"
-#include "apps/formats/logs/line_file.h"
+#include "apps/formats/logs/log_checks.h"
 #include "apps/formats/logs/log_replay.h"
+#include "apps/formats/mcap_writer.h"
 #include "apps/jaywalk/commands.h"
 #include "apps/jaywalk/progress.h"
 #include "apps/report/run_observer.h"
@@ -17,7 +17,6 @@
 #include "apps/view/live_view.h"
 #include "apps/why/recorded_run.h"
 #include "firmware/control_loop.h"
-#include "firmware/recording/map_files.h"
 #include "firmware/recording/recorded_hal.h"
 #include "firmware/recording/run_folders.h"
 #include "hal/robot_model_file.h"
@@ -28,18 +27,13 @@
 namespace jaywalk {
 namespace {
 
-struct ReplayOptions {
+struct ReplayOptions : LoopOptions {
   std::vector<std::filesystem::path> logs;
   std::string format;                  ///< scan-odom, carmen, bag or jaywalk; empty: by what the file begins with
   std::string scan_topic, odom_topic;  ///< of a bag; empty: the only one of its type
   std::optional<Vec2> goal;            ///< default: the recording's last pose
   std::optional<Pose2> laser_mount;    ///< robot_from_laser; default: the log's own word, else the robot's origin
   std::string model;  ///< p3dx, wheelchair, or a robot model file; empty: p3dx, its laser at the origin
-  std::filesystem::path out = "out/replay";
-  bool save_map = false;                  ///< what the robot saw, as map_server files
-  bool mcap = false;                      ///< leave run.mcap as well
-  bool json = false;                      ///< print the summary, in place of a line
-  std::optional<view::ViewAddress> view;  ///< serve the live page here, until an interruption
 };
 
 constexpr double kGoalTolerance_m = 0.3;
@@ -89,33 +83,24 @@ ControlSetup setup_for(const sim::LogReplay& log, const ReplayOptions& options) 
 }
 
 /// The page of a replay: it shows any tick and takes no goals.
-class ReplayView {
- public:
-  ReplayView(const ReplayOptions& options, const LoopRunner& runner) : runner_(runner) {
-    if (!options.view) return;
-    live_ = std::make_unique<LiveView>(
-        *options.view, runner.setup(), true,
-        [](const view::ViewOrder&, const view::Reply& reply) { reply("a recording takes no orders\n"); });
-    live_->begin({.title = options.logs[0].filename().string(),
-                  .known = runner.setup().known_map.get(),
-                  .takes_goals = false,
-                  .takes_pauses = false});
-  }
-  /// After a tick. A subscriber to the stream of messages gets it at the recording's own pace.
-  void follow() {
-    if (!live_) return;
-    live_->follow(runner_, "");
-    if (live_->has_subscribers()) std::this_thread::sleep_for(runner_.setup().tick());
-  }
-  void stay(const Interruption& interruption) const {
-    std::fflush(stdout);
-    if (live_) live_->stay(true, interruption);
-  }
+std::unique_ptr<LiveView> view_for(const ReplayOptions& options, const LoopRunner& runner) {
+  if (!options.view) return nullptr;
+  auto live = std::make_unique<LiveView>(
+      *options.view, runner.setup(), true,
+      [](const view::ViewOrder&, const view::Reply& reply) { reply("a recording takes no orders\n"); });
+  live->begin({.title = options.logs[0].filename().string(),
+               .known = runner.setup().known_map.get(),
+               .takes_goals = false,
+               .takes_pauses = false});
+  return live;
+}
 
- private:
-  const LoopRunner& runner_;
-  std::unique_ptr<LiveView> live_;
-};
+/// After a tick. A subscriber to the stream of messages gets it at the recording's own pace.
+void show(LiveView* view, const LoopRunner& runner) {
+  if (view == nullptr) return;
+  view->follow(runner, "");
+  if (view->has_subscribers()) std::this_thread::sleep_for(runner.setup().tick());
+}
 
 /// Where nobody says how the laser is mounted: as matching has it.
 std::optional<double> find_mount(const ReplayOptions& options, sim::RecordedLog& log) {
@@ -156,15 +141,6 @@ void tell(Progress& progress, const sim::LogReplay& log, Time now) {
   progress.show(lived_s / whole_s, std::to_string(std::lround(lived_s)) + " s");
 }
 
-/// Of a log or a recording: what is left of its replay, and a line about it.
-void conclude(const ReplayOptions& options, LoopRunner& runner, RunEnd end, const std::string& told) {
-  const std::filesystem::path drawn = runner.finish(std::move(end));
-  if (options.save_map) save_map(runner.loop().tracker().still(), options.out);
-  runner.require_recorded();
-  if (options.json) return print_summary(options.out);
-  std::printf("%s; see %s\n", told.c_str(), drawn.c_str());
-}
-
 int replay_log(const ReplayOptions& options, const std::string& format) {
   sim::RecordedLog recorded = load_and_complain(options, format);
   const std::optional<double> found_yaw = find_mount(options, recorded);
@@ -173,7 +149,7 @@ int replay_log(const ReplayOptions& options, const std::string& format) {
   log.set_goal(setup.goal, setup.goal_tolerance_m);
   RunObserver observer(options.mcap);
   LoopRunner runner(setup, log.hal(), {options.out}, observer);
-  ReplayView view(options, runner);
+  const std::unique_ptr<LiveView> view = view_for(options, runner);
   MountCheck mount;
   Progress progress;
   const auto own_time = [&](Time t) { return log.log().own_time(t); };
@@ -181,7 +157,7 @@ int replay_log(const ReplayOptions& options, const std::string& format) {
   do {  // a recording of a single scan ends where it begins
     mount.add(runner.step().pose.map_from_robot);
     runner.report(nullptr, own_time);
-    view.follow();
+    show(view.get(), runner);
     tell(progress, log, runner.last().now);
   } while (!log.ended() && !interruption.came());
   progress.make_way();
@@ -198,7 +174,7 @@ int replay_log(const ReplayOptions& options, const std::string& format) {
             .found_mount_yaw_rad = found_yaw,
             .scenario = name},
            name + told);
-  view.stay(interruption);
+  if (view) view->stay(true, interruption);
   return whole ? 0 : interruption.exit_code();
 }
 
@@ -236,7 +212,7 @@ int replay_recording(const ReplayOptions& options, FilePart part) {
                       chosen.planner = std::make_unique<HeldPlanner>(std::move(chosen.planner), recorded);
                       return chosen;
                     });
-  ReplayView view(options, runner);
+  const std::unique_ptr<LiveView> view = view_for(options, runner);
   Progress progress;
   std::uint64_t ticks = 0, lost = 0, different = 0;
   const Interruption interruption;
@@ -246,7 +222,7 @@ int replay_recording(const ReplayOptions& options, FilePart part) {
     lost += run.lost_before();
     runner.step_at(recorded.now);
     runner.report(nullptr);
-    view.follow();
+    show(view.get(), runner);
     const WheelCommand& now = devices.commanded();
     const bool same = same_bits(now.left_radps, recorded.command.left_radps) &&
                       same_bits(now.right_radps, recorded.command.right_radps);
@@ -268,7 +244,7 @@ int replay_recording(const ReplayOptions& options, FilePart part) {
             .title = "replay of " + file},
            file + ": " + std::to_string(ticks) + " ticks, " + std::to_string(different) + " commands differ, " +
                std::to_string(lost) + " ticks missing");
-  view.stay(interruption);
+  if (view) view->stay(true, interruption);
   return whole ? (same ? 0 : 1) : interruption.exit_code();
 }
 
@@ -285,6 +261,29 @@ int run_replay(ReplayOptions options) {
     if (own.bytes > 0) return replay_recording(options, own);
   }
   return replay_log(options, format);
+}
+
+/// `folder`: a run's, or a recording.jwr; `wanted`: the file to write; empty: run.mcap in the run's folder.
+void run_export(const std::filesystem::path& folder, const std::filesystem::path& wanted) {
+  RecordedRun run(folder);
+  const std::filesystem::path place = run.is_in_parts() ? run.file() : run.file().parent_path();
+  const std::filesystem::path out = wanted.empty() ? place / "run.mcap" : wanted;
+  std::error_code missing;
+  if (std::filesystem::equivalent(run.file(), out, missing))
+    throw StartupError(run.file().string() + ": would be overwritten", "choose another --out");
+  RunExporter exporter(out, run.setup());
+  SeenRun again(run);
+  Progress progress;
+  while (again.step()) {
+    exporter.add(again.last(), again.tracker());
+    if (progress.is_due()) progress.show(run.share_read(), std::to_string(exporter.file().messages()) + " messages");
+  }
+  progress.make_way();
+  std::fputs(again.remarks().c_str(), stderr);
+  exporter.finish(run.is_in_parts() ? std::filesystem::path() : run.file());
+  std::printf("%s: %llu messages on %zu topics over %.1f s\n", out.c_str(),
+              static_cast<unsigned long long>(exporter.file().messages()), exporter.file().topics().size(),
+              static_cast<double>(exporter.file().last_ns() - exporter.file().first_ns()) * 1e-9);
 }
 
 }  // namespace
@@ -306,12 +305,17 @@ void add_replay(CLI::App& app, int& exit_code) {
   replay->add_option(
       "--model", options.model,
       "Whose body it is: p3dx, wheelchair, or a robot model file (default: p3dx); its laser's mount too");
-  replay->add_flag("--save-map", options.save_map, "Save what the robot saw: map.yaml and map.pgm (map_server)");
-  replay->add_option("--out", options.out, "Folder for what the run leaves")->capture_default_str();
-  replay->add_flag("--mcap", options.mcap, "Leave run.mcap as well, as export would");
-  replay->add_flag("--json", options.json, "Print the summary, in place of a line");
-  add_view(*replay, options.view);
+  options.out = "out/replay";
+  add_loop_options(*replay, options);
   replay->callback([&exit_code] { exit_code = run_replay(options); });
+}
+
+void add_export(CLI::App& app, int& /*exit_code*/) {
+  static std::filesystem::path run, out;
+  CLI::App* command = app.add_subcommand("export", "A run's recording as MCAP, for Foxglove and ros2 bag");
+  command->add_option("run", run, "A run's folder, or its recording.jwr")->required();
+  command->add_option("--out", out, "File to write (default: run.mcap in the run's folder)");
+  command->callback([] { run_export(run, out); });
 }
 
 }  // namespace jaywalk

@@ -61,8 +61,7 @@ int set_up() {
                        asks ? kept : "");
   SteadyClock clock;
   std::fputs("Looking for drives, scanners and joysticks; nothing moves.\n", stderr);
-  const std::unique_ptr<Surroundings> machine = this_machine(clock);
-  RobotDraft draft = draft_robot(*machine, answers, clock);
+  RobotDraft draft = draft_robot(this_machine(clock), answers, clock);
   const std::filesystem::path model = draft.model().empty() ? "" : write_model(draft);
   try {
     write_sound(out_path, draft.text());

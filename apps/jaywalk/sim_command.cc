@@ -24,8 +24,7 @@
 namespace jaywalk {
 namespace {
 
-/// A field an option of the command line: more than a struct has elsewhere.
-struct SimOptions {
+struct SimOptions : LoopOptions {
   std::filesystem::path scenario;
   std::vector<std::string> settings = {};  ///< KEY=VALUE each, in place of the scenario's own
   std::optional<std::uint64_t> seed;       ///< default: the scenario's
@@ -33,16 +32,11 @@ struct SimOptions {
   bool constant_speed = false;
   std::string rival;  ///< ControlSetup's
   Backend backend = Backend::kAuto;
-  int device = 0;  ///< CUDA's number
-  std::filesystem::path out = "out/sim";
-  PartsKept parts = {};   ///< of recording and tables
-  bool save_map = false;  ///< what the robot saw, as map_server files
+  int device = 0;        ///< CUDA's number
+  PartsKept parts = {};  ///< of recording and tables
   bool realtime = false;
-  bool mcap = false;                           ///< leave run.mcap as well
-  bool json = false;                           ///< print the summary, in place of a line
-  std::optional<view::ViewAddress> view = {};  ///< serve the live page there
-  bool until_arrived = false;                  ///< with it too: ends at the first arrival
-  bool endless = false;                        ///< goes on until it is interrupted, and its page may change the world
+  bool until_arrived = false;  ///< with the page too: ends at the first arrival
+  bool endless = false;        ///< goes on until it is interrupted, and its page may change the world
 };
 
 /// PREFIX/bin/jaywalk has PREFIX/share/jaywalk/scenarios; a build lies in its sources, or a folder or two below.
@@ -66,8 +60,7 @@ std::vector<std::string> names_in(const std::filesystem::path& folder) {
 }
 
 /// `given` itself where there is such a file, or it has a folder; else the scenario of that name that comes with the
-/// program: installed beside it, or in the sources that it was built from. Throws StartupError for a name that is none
-/// of theirs, with the nearest.
+/// program. Throws StartupError for a name that is none of theirs, with the nearest.
 std::filesystem::path scenario_named(const std::filesystem::path& given) {
   if (std::filesystem::exists(given) || given.has_parent_path()) return given;
   const std::filesystem::path folder = shipped_folder();
@@ -79,51 +72,38 @@ std::filesystem::path scenario_named(const std::filesystem::path& given) {
                      did_you_mean(name, names, "give a file, or one of " + joined(names)));
 }
 
-/// The simulator's truth in the report's words.
-class TruthForReport {
- public:
-  const TrueState& of(const sim::Truth& truth) {
-    movers_.clear();
-    for (const sim::MoverTruth& m : truth.movers)
-      movers_.push_back({m.id, m.position, m.velocity, m.radius_m, m.forced});
-    state_ = {.map_from_robot = truth.map_from_robot,
-              .twist = truth.twist,
-              .movers = movers_,
-              .clearance_m = truth.clearance_m,
-              .mover_clearance_m = truth.mover_clearance_m,
-              .contacts = truth.contacts,
-              .contacts_caused = truth.contacts_caused,
-              .forced_movers = truth.forced_movers,
-              .social = truth.social};
-    return state_;
-  }
-
- private:
-  std::vector<TrueMover> movers_;
-  TrueState state_;
-};
+/// The simulator's truth in the report's words; `movers` holds those that it refers to.
+TrueState state_for_report(const sim::Truth& truth, std::vector<TrueMover>& movers) {
+  movers.clear();
+  for (const sim::MoverTruth& m : truth.movers) movers.push_back({m.id, m.position, m.velocity, m.radius_m, m.forced});
+  return {.map_from_robot = truth.map_from_robot,
+          .twist = truth.twist,
+          .movers = movers,
+          .clearance_m = truth.clearance_m,
+          .mover_clearance_m = truth.mover_clearance_m,
+          .contacts = truth.contacts,
+          .contacts_caused = truth.contacts_caused,
+          .forced_movers = truth.forced_movers,
+          .social = truth.social};
+}
 
 sim::Scenario scenario_for(const SimOptions& options) {
   sim::Scenario scenario = sim::load_scenario(options.scenario, options.settings);
   const bool never_stops = options.mode == PlanMode::kPaper || options.constant_speed;
-  if (never_stops && std::isfinite(scenario.goal_heading_rad)) {
+  const std::string stopping = "run without --mode paper and --constant-speed", file = options.scenario.string();
+  if (never_stops && std::isfinite(scenario.goal_heading_rad))
     throw StartupError(scenario.goal_place + "a robot that never stops cannot turn to a heading at the goal",
-                       "leave the third number out, or run without --mode paper and --constant-speed");
-  }
-  const auto is_slow = [](const MapZone& zone) { return zone.kind == ZoneKind::kSpeed; };
-  if (never_stops && std::any_of(scenario.zones.begin(), scenario.zones.end(), is_slow))
-    throw StartupError(
-        options.scenario.string() + ": [[zones]]: a robot that keeps its speed cannot slow down in a zone",
-        "leave the speed zones out, or run without --mode paper and --constant-speed");
-  if (!options.rival.empty() && never_stops)
-    throw StartupError("--planner: the planners of others stop and turn on the spot",
-                       "run without --mode paper and --constant-speed");
+                       "leave the third number out, or " + stopping);
+  if (never_stops && std::ranges::count(scenario.zones, ZoneKind::kSpeed, &MapZone::kind) > 0)
+    throw StartupError(file + ": [[zones]]: a robot that keeps its speed cannot slow down in a zone",
+                       "leave the speed zones out, or " + stopping);
+  if (never_stops && !options.rival.empty())
+    throw StartupError("--planner: the planners of others stop and turn on the spot", stopping);
   if (scenario.stick && (never_stops || !options.rival.empty()))
-    throw StartupError(options.scenario.string() + ": [stick]: a person who steers is obeyed by no other planner",
+    throw StartupError(file + ": [stick]: a person who steers is obeyed by no other planner",
                        "run without --mode paper, --constant-speed and --planner");
-  if (options.endless && never_stops)
-    throw StartupError("--endless: a robot that keeps its speed takes no goals from the page",
-                       "run without --mode paper and --constant-speed");
+  if (never_stops && options.endless)
+    throw StartupError("--endless: a robot that keeps its speed takes no goals from the page", stopping);
   if (options.mode == PlanMode::kPaper) scenario.pose_source.enabled = true;  // the paper's localisation system
   return scenario;
 }
@@ -244,14 +224,15 @@ int run_sim(SimOptions options) {
   observer.show_walls({simulation.walls().begin(), simulation.walls().end()});
   LoopRunner runner(setup, hal_for(simulation, view.get()), {options.out, options.parts}, observer);
   Progress progress;
-  TruthForReport truth_for_report;
+  std::vector<TrueMover> movers;
   std::string ended;
   Time set_out{};
   const Interruption interruption;
   const auto began = std::chrono::steady_clock::now();
   while (ended.empty()) {
     const TickRecord& t = runner.step();
-    runner.report(&truth_for_report.of(simulation.truth()));
+    const TrueState state = state_for_report(simulation.truth(), movers);
+    runner.report(&state);
     tell(progress, scenario, simulation.truth());
     ended = outcome(scenario, simulation.truth(), t, runner.setup().applies_verdict(), set_out);
     const bool may_go_on = view && !options.until_arrived && !interruption.came() && view->is_watched();
@@ -264,16 +245,9 @@ int run_sim(SimOptions options) {
   progress.make_way();
   const double took_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
   const double lasted_s = to_seconds(simulation.truth().now);
-  const std::filesystem::path drawn = runner.finish(end_of(options, scenario, seed, simulation, runner, ended));
-  if (options.save_map) save_map(runner.loop().tracker().still(), options.out);
-  runner.require_recorded();
-  if (options.json) {
-    print_summary(options.out);
-  } else {
-    std::printf("%s: %s after %.1f s, %.1f times faster than real time; see %s\n", scenario.name.c_str(), ended.c_str(),
-                lasted_s, lasted_s / took_s, drawn.c_str());
-  }
-  std::fflush(stdout);
+  conclude(options, runner, end_of(options, scenario, seed, simulation, runner, ended),
+           scenario.name + ": " + ended +
+               formatted(" after %.1f s, %.1f times faster than real time", lasted_s, lasted_s / took_s));
   if (view) view->stay(interruption);
   if (ended == "interrupted") return interruption.exit_code();
   return ended == "reached" ? 0 : 1;
@@ -310,13 +284,10 @@ void add_sim(CLI::App& app, int& exit_code) {
          "How the ride is to feel, in place of the scenario's own")
       ->check(CLI::IsMember(comfort_names()));
   add_backend(*sim, options.backend, options.device);
-  sim->add_option("--out", options.out, "Folder for what the run leaves")->capture_default_str();
   add_parts(*sim, options.parts);
-  sim->add_flag("--save-map", options.save_map, "Save what the robot saw: map.yaml and map.pgm (map_server)");
+  options.out = "out/sim";
+  add_loop_options(*sim, options);
   sim->add_flag("--realtime", options.realtime, "Hold simulated time to the wall clock");
-  sim->add_flag("--mcap", options.mcap, "Leave run.mcap as well, as export would");
-  sim->add_flag("--json", options.json, "Print the summary, in place of a line");
-  add_view(*sim, options.view);
   CLI::Option* const until =
       sim->add_flag("--until-arrived", options.until_arrived, "End at the first arrival, watched or not");
   sim->add_flag_callback(

@@ -10,10 +10,7 @@
 #include "hal/types/errors.h"
 
 namespace jaywalk {
-namespace {
 constexpr std::size_t kBlockBytes = 1U << 16U;
-
-}  // namespace
 
 std::string csv_cell(double value) {
   if (std::isnan(value)) return "";
@@ -29,11 +26,6 @@ CsvFile::CsvFile(const std::string& file, std::string_view header) : file_(file)
   rows_.append(header).append("\n");
 }
 
-bool CsvFile::close() {
-  write_out();
-  return file_.close();
-}
-
 bool CsvFile::write_out() {
   const std::size_t taken = file_.append({reinterpret_cast<const unsigned char*>(rows_.data()), rows_.size()});
   if (taken < rows_.size()) {
@@ -47,16 +39,7 @@ bool CsvFile::write_out() {
 CsvFile& CsvFile::seconds(Time t) {
   const std::int64_t ns = t.time_since_epoch().count();
   const std::int64_t us = ns / 1000 + (ns % 1000 >= 500 ? 1 : 0) - (ns % 1000 < -500 ? 1 : 0);
-  const std::string fraction = std::to_string(std::abs(us % 1'000'000));
-  return text((us < 0 ? "-" : "") + std::to_string(std::abs(us / 1'000'000)) + "." +
-              std::string(6 - fraction.size(), '0') + fraction);
-}
-
-CsvFile& CsvFile::text(std::string_view value) {
-  if (row_begun_) rows_ += ',';
-  row_begun_ = true;
-  rows_ += value;
-  return *this;
+  return text(formatted("%s%lld.%06lld", us < 0 ? "-" : "", std::llabs(us / 1'000'000), std::llabs(us % 1'000'000)));
 }
 
 void CsvFile::end_row() {
@@ -66,13 +49,9 @@ void CsvFile::end_row() {
 }
 
 std::vector<std::string> parts_between(const std::string& text, char at) {
-  std::vector<std::string> parts(1);
-  for (const char c : text) {
-    if (c == at)
-      parts.emplace_back();
-    else
-      parts.back() += c;
-  }
+  std::vector<std::string> parts;
+  std::istringstream rest(text + at);
+  for (std::string part; std::getline(rest, part, at);) parts.push_back(part);
   return parts;
 }
 

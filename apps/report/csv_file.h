@@ -30,13 +30,19 @@ class CsvFile {
   CsvFile& vector(Vec2 v) { return number(v.x).number(v.y); }
   CsvFile& pose(const Pose2& pose) { return vector(pose.position()).number(pose.heading); }
   CsvFile& seconds(Time t);  ///< exact to the nanosecond before it is rounded to six decimals
-  CsvFile& text(std::string_view value);
+  CsvFile& text(std::string_view value) {
+    if (std::exchange(row_begun_, true)) rows_ += ',';
+    rows_ += value;
+    return *this;
+  }
   void end_row();
   /// Between rows: writes out what there is. False when the disk did not take all of it, now or before.
   bool write_out();
   /// Writes out what is left. False likewise.
-  bool close();
-  /// AppendFile's.
+  bool close() {
+    write_out();
+    return file_.close();
+  }
   [[nodiscard]] std::string complaint() const { return file_.complaint(); }
   /// Of the file, with what is not on the disk yet.
   [[nodiscard]] std::uintmax_t bytes() const noexcept { return file_.bytes() + rows_.size(); }

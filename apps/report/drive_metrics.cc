@@ -3,11 +3,7 @@
 #include <cmath>
 
 namespace jaywalk {
-namespace {
-
 constexpr double kLoop_rad = 340.0 / 180.0 * kPi, kWithin_m = 10.0, kPiece_m = 0.05;
-
-}  // namespace
 
 void PathShape::add(Vec2 position) {
   if (!newest_) newest_ = last_mark_ = position;

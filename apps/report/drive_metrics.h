@@ -67,7 +67,6 @@ class Smoothness {
   Distribution accel_, jerk_;
 };
 
-/// A stretch of a run.
 struct Episode {
   double from_s = 0.0, to_s = 0.0;
 };

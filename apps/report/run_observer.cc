@@ -3,10 +3,7 @@
 #include "hal/shown_text.h"
 
 namespace jaywalk {
-namespace {
 constexpr double kSeenAround_m = 15.0;  // cells shown beyond the driven way
-
-}  // namespace
 
 void RunObserver::consider(const ControlLoop& loop, const Planner& planner) {
   const Plan& plan = loop.plan();
@@ -39,14 +36,6 @@ PictureScene RunObserver::scene(const ControlLoop& loop, const Planner& planner)
   scene.robot_from_laser = setup_.model.laser.robot_from_laser;
   scene.extent = extent_of(scene);
   return scene;
-}
-
-void RunObserver::begin(const std::filesystem::path& out, const std::filesystem::path& tables,
-                        const ControlSetup& setup) {
-  out_ = out;
-  setup_ = setup;
-  report_.emplace(out, tables);
-  if (wants_mcap_) exporter_.emplace(out / "run.mcap", setup);
 }
 
 void RunObserver::report(const RunSample& sample) {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/formats/run_exporter.h"
+#include "apps/formats/mcap_writer.h"
 #include "apps/report/picture/scene.h"
 #include "apps/report/run_report.h"
 #include "firmware/control_loop.h"
@@ -21,7 +21,13 @@ class RunObserver : public TickObserver {
   /// The real walls, for the picture; without them it shows what the robot saw.
   void show_walls(std::vector<sim::WallSegment> walls) { walls_ = std::move(walls); }
 
-  void begin(const std::filesystem::path& out, const std::filesystem::path& tables, const ControlSetup& setup) override;
+  void begin(const std::filesystem::path& out, const std::filesystem::path& tables,
+             const ControlSetup& setup) override {
+    out_ = out;
+    setup_ = setup;
+    report_.emplace(out, tables);
+    if (wants_mcap_) exporter_.emplace(out / "run.mcap", setup);
+  }
   void report(const RunSample& sample) override;
   void continue_in(const std::filesystem::path& part, Time last) override { report_->continue_in(part, last); }
   void end_tables() override { report_->end_tables(); }

@@ -19,8 +19,6 @@
 namespace jaywalk {
 namespace {
 
-constexpr off_t kBytes = 64 * 1024;  // a summary.json and a devices.json have 2 to 5 kB
-
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 using Json = nlohmann::ordered_json;
@@ -51,11 +49,6 @@ Json spread(const LogHistogram& of) {
 }
 
 template <class T>
-Json known(bool is_known, const T& value) {
-  return is_known ? Json(value) : Json(nullptr);
-}
-
-template <class T>
 Json known(const std::optional<T>& value) {
   return value ? Json(*value) : Json(nullptr);
 }
@@ -76,22 +69,23 @@ double way_to_go_m(const ControlLoop& loop, Vec2 here) {
                                    : std::numeric_limits<double>::infinity();
 }
 
-}  // namespace
-
-DiskReserve::DiskReserve(const std::filesystem::path& folder) : file_(folder / ".reserve") {
-  const int descriptor = ::open(file_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+/// Holds 64 KiB in the run's folder, so that a disk that other files have filled meanwhile still takes its summary.
+/// Throws StartupError where the disk has no room for it. A file system that cannot hold room is passed over.
+std::shared_ptr<void> reserve_in(const std::filesystem::path& folder) {
+  constexpr off_t kBytes = 64 * 1024;  // a summary.json and a devices.json have 2 to 5 kB
+  const std::filesystem::path file = folder / ".reserve";
+  std::shared_ptr<void> held(nullptr, [file](void*) {
+    std::error_code gone;
+    std::filesystem::remove(file, gone);
+  });
+  const int descriptor = ::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
   const int error = descriptor < 0 ? errno : ::posix_fallocate(descriptor, 0, kBytes);
   if (descriptor >= 0) ::close(descriptor);
-  if (error != ENOSPC && error != EDQUOT) return;
-  std::error_code gone;
-  std::filesystem::remove(file_, gone);
+  if (error != ENOSPC && error != EDQUOT) return held;
   throw StartupError(folder.string() + ": " + std::strerror(error), "free some space, or choose another --out folder");
 }
 
-DiskReserve::~DiskReserve() {
-  std::error_code gone;
-  std::filesystem::remove(file_, gone);
-}
+}  // namespace
 
 RunTables::RunTables(const std::filesystem::path& folder)
     : robot_((folder / "robot.csv").string(),
@@ -145,7 +139,7 @@ void RunTables::add_tracks(const RunSample& sample) {
 
 RunReport::RunReport(const std::filesystem::path& folder, const std::filesystem::path& tables)
     : folder_(folder), tables_(open_tables(folder, tables)) {
-  if (tables_) reserve_.emplace(folder_);
+  if (tables_) reserve_ = reserve_in(folder_);
 }
 
 void RunReport::continue_in(const std::filesystem::path& tables, Time last) {
@@ -159,16 +153,6 @@ void RunReport::turn_to_next_tables() {
   lost_ = complaints();
   next_tables_->follow(*tables_);
   tables_ = std::move(next_tables_);
-}
-
-void RunReport::end_tables() {
-  if (next_tables_) turn_to_next_tables();
-  tables_.reset();
-}
-
-std::uintmax_t RunReport::bytes() const {
-  if (next_tables_) return next_tables_->bytes();
-  return tables_ ? tables_->bytes() : 0;
 }
 
 void RunReport::add(const RunSample& sample) {
@@ -245,31 +229,32 @@ std::string RunReport::finish(const RunEnd& end) {
 }
 
 std::string RunReport::summary(const RunEnd& end) const {
-  const bool has_truth = truth_.has_value();
   const TrueState truth = truth_.value_or(TrueState{});
+  const auto of_truth = [&](const auto& value) { return truth_ ? Json(value) : Json(nullptr); };
+  const auto named = [](const std::string& name) { return name.empty() ? Json(nullptr) : Json(name); };
   Json j;
   j["outcome"] = end.outcome;
-  j["success"] = known(has_truth, end.success);
+  j["success"] = of_truth(end.success);
   j["path_length_m"] = shape_.length_m();
   j["static_shortest_path_m"] = known(end.static_shortest_path_m);
   j["heading_error_rad"] = known(end.heading_error_rad);
   j["found_mount_yaw_rad"] = known(end.found_mount_yaw_rad);
   j["duration_s"] = duration_s();
-  j["min_clearance_m"] = known(has_truth, truth.clearance_m);
-  j["min_mover_clearance_m"] = known(has_truth, truth.mover_clearance_m);
-  j["forced_movers"] = known(has_truth, truth.forced_movers);
-  j["contacts"] = known(has_truth, truth.contacts);
-  j["contacts_caused"] = known(has_truth, truth.contacts_caused);
-  j["intimate_s"] = known(has_truth, truth.social.intimate_s);
-  j["personal_s"] = known(has_truth, truth.social.personal_s);
-  j["slowed_m"] = known(has_truth, truth.social.slowed_m);
-  j["turned_rad"] = known(has_truth, truth.social.turned_rad);
+  j["min_clearance_m"] = of_truth(truth.clearance_m);
+  j["min_mover_clearance_m"] = of_truth(truth.mover_clearance_m);
+  j["forced_movers"] = of_truth(truth.forced_movers);
+  j["contacts"] = of_truth(truth.contacts);
+  j["contacts_caused"] = of_truth(truth.contacts_caused);
+  j["intimate_s"] = of_truth(truth.social.intimate_s);
+  j["personal_s"] = of_truth(truth.social.personal_s);
+  j["slowed_m"] = of_truth(truth.social.slowed_m);
+  j["turned_rad"] = of_truth(truth.social.turned_rad);
   j["max_turn_deg"] = shape_.max_turn_deg();
   j["turn_histogram"] = shape_.turn_histogram();
   j["turn_bin_deg"] = kTurnBinDeg;
   j["loops"] = loops_.loops().size();
   add_times(j, "loops", loops_.loops());
-  j["detour_m"] = known(detours_.has_value(), detours_ ? detours_->detour_m() : 0.0);
+  j["detour_m"] = detours_ ? Json(detours_->detour_m()) : Json(nullptr);
   add_times(j, "detours", detours_ ? detours_->detours() : std::vector<Episode>{});
   j["accel_max_mps2"] = smoothness_.accel_max_mps2();
   j["jerk_p99_mps3"] = smoothness_.jerk_quantile_mps3(0.99);
@@ -296,9 +281,9 @@ std::string RunReport::summary(const RunEnd& end) const {
   j["seed"] = known(end.seed);
   j["scenario"] = end.scenario;
   j["settings"] = end.settings;
-  j["planner"] = known(!end.planner.empty(), end.planner);
-  j["mover_rule"] = known(!end.mover_rule.empty(), end.mover_rule);
-  j["measured_on"] = has_truth ? "truth" : "estimate";
+  j["planner"] = named(end.planner);
+  j["mover_rule"] = named(end.mover_rule);
+  j["measured_on"] = truth_ ? "truth" : "estimate";
   j["version"] = end.version;
   return j.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -14,20 +14,6 @@
 
 namespace jaywalk {
 
-/// 64 KiB that a run holds in its folder until its end, so that a disk that other files have filled meanwhile still
-/// takes its summary.
-class DiskReserve {
- public:
-  /// Throws StartupError where the disk has no room for it. A file system that cannot hold room is passed over.
-  explicit DiskReserve(const std::filesystem::path& folder);
-  ~DiskReserve();
-  DiskReserve(const DiskReserve&) = delete;
-  DiskReserve& operator=(const DiskReserve&) = delete;
-
- private:
-  std::filesystem::path file_;
-};
-
 /// robot.csv, movers.csv and tracks.csv (columns: docs/reference/outputs.md), a tick at a time; on the disk within
 /// kLongestWait of the ticks' time. A table that the disk does not take ends with its last whole row; the others go on.
 class RunTables {
@@ -74,9 +60,14 @@ class RunReport {
   /// Rows of ticks later than `last` go to tables in another folder. Throws StartupError where these cannot be made.
   void continue_in(const std::filesystem::path& tables, Time last);
   /// No more rows.
-  void end_tables();
+  void end_tables() {
+    if (next_tables_) turn_to_next_tables();
+    tables_.reset();
+  }
   /// Of the tables that the next tick goes to.
-  [[nodiscard]] std::uintmax_t bytes() const;
+  [[nodiscard]] std::uintmax_t bytes() const {
+    return next_tables_ ? next_tables_->bytes() : tables_ ? tables_->bytes() : 0;
+  }
   /// What the disk did not take of the tables, a line each; empty: it has taken all so far.
   [[nodiscard]] std::vector<std::string> complaints() const;
   /// Closes the tables, writes summary.json and returns its text. Call once, after the last tick. Throws StartupError
@@ -103,7 +94,7 @@ class RunReport {
   std::unique_ptr<RunTables> tables_, next_tables_;
   Time last_of_tables_ = kNever;   ///< where there are next ones
   std::vector<std::string> lost_;  ///< complaints of tables that are closed
-  std::optional<DiskReserve> reserve_;
+  std::shared_ptr<void> reserve_;  ///< room on the disk, held until the summary is written
   PathShape shape_;
   Smoothness smoothness_;
   Distribution plan_ms_, plan_processor_ms_, plan_device_ms_, tick_ms_;

@@ -10,7 +10,7 @@ namespace jaywalk::baseline {
 namespace {
 
 // As the roll-outs', as the limits below.
-constexpr Duration kHoldsFor = std::chrono::milliseconds(500), kGuideHoldsFor = std::chrono::seconds(1);
+constexpr Duration kGuideHoldsFor = std::chrono::seconds(1);
 constexpr float kMostTurn = 1.2F, kMostTurnAccel = 2.0F, kSlowing = 0.8F, kMostJerk = 0.75F;
 constexpr float kTurnGain = 2.0F;     // rad/s a radian off the heading wanted at the goal
 constexpr float kStopWithin = 0.66F;  // of the tolerance
@@ -51,8 +51,45 @@ class BaselineMotion final : public motion::Motion {
   void observe(const motion::World& world, const motion::Intent&) noexcept override {
     status_.rests_on = std::min(seen_, world.plan.stamp);
   }
-  void decide(const motion::World& world, const motion::Intent& intent) noexcept override;
-  [[nodiscard]] Twist2 command(const motion::World& world, const motion::Intent& intent) noexcept override;
+  void decide(const motion::World& world, const motion::Intent& intent) noexcept override {
+    if (!world.new_scan || !finite(world.map_from_robot)) return;
+    const Guide& guide = world.plan.guide;
+    const SeenFrom newest = world.newest();
+    memory_.update({world.now,
+                    world.map_from_robot,
+                    world.perceived.tracks,
+                    world.perceived.standing,
+                    world.perceived.still,
+                    {newest, world.other_scans},
+                    guide});
+    const bool has_goal = intent.kind == motion::Intent::Kind::kGoal;
+    if (!has_goal || age(world.plan.stamp, world.now) >= kGuideHoldsFor || !guide.known()) return;
+    const Vec2 goal = world.input.goal_in_map;
+    decided_ = decide_({motion::state_of(world),
+                        {static_cast<float>(goal.x), static_cast<float>(goal.y)},
+                        world.perceived.tracks,
+                        guide,
+                        bounds_,
+                        radius_});
+    decided_at_ = world.now;
+    seen_ = world.scan.stamp;
+  }
+  [[nodiscard]] Twist2 command(const motion::World& world, const motion::Intent& intent) noexcept override {
+    const motion::Command was{static_cast<float>(world.driven.v_mps), static_cast<float>(world.driven.w_radps)};
+    if (std::fabs(was.v - commanded_.v) > 1e-4F) accel_ = 0.0F;  // the supervisor has set the speed
+    const double to_goal_m = distance(world.map_from_robot.position(), world.input.goal_in_map);
+    const bool there = to_goal_m < static_cast<double>(kStopWithin * tolerance_m_);
+    const bool rests = intent.kind != motion::Intent::Kind::kGoal || there || decided_at_ == kNever ||
+                       world.now - decided_at_ > motion::kHoldsFor;
+    const bool turns = there && world.input.wants_heading() && std::fabs(was.v) < motion::kRestsMps;
+    const double error = turns ? world.input.heading_error_rad(world.map_from_robot) : 0.0;
+    const motion::Command at_rest{0.0F, std::clamp(kTurnGain * static_cast<float>(error), -bounds_.turn, bounds_.turn)};
+    const motion::RobotState next =
+        motion::moved({0.0F, 0.0F, 0.0F, was.v, was.w, accel_}, rests ? at_rest : decided_, bounds_, tick_s_);
+    accel_ = next.accel;
+    commanded_ = {next.v, next.w};
+    return {static_cast<double>(next.v), static_cast<double>(next.w)};
+  }
   [[nodiscard]] motion::MotionStatus status() const noexcept override { return status_; }
   [[nodiscard]] PlanRequest request(const motion::World& world) const noexcept override {
     return {.stamp = world.scan.stamp,
@@ -75,47 +112,6 @@ class BaselineMotion final : public motion::Motion {
   float accel_ = 0.0F;  ///< of the ramp
   motion::MotionStatus status_;
 };
-
-void BaselineMotion::decide(const motion::World& world, const motion::Intent& intent) noexcept {
-  if (!world.new_scan || !finite(world.map_from_robot)) return;
-  const Guide& guide = world.plan.guide;
-  const SeenFrom newest = world.newest();
-  memory_.update({world.now,
-                  world.map_from_robot,
-                  world.perceived.tracks,
-                  world.perceived.standing,
-                  world.perceived.still,
-                  {newest, world.other_scans},
-                  guide});
-  const bool has_goal = intent.kind == motion::Intent::Kind::kGoal;
-  if (!has_goal || age(world.plan.stamp, world.now) >= kGuideHoldsFor || !guide.known()) return;
-  const Vec2 goal = world.input.goal_in_map;
-  decided_ = decide_({motion::state_of(world),
-                      {static_cast<float>(goal.x), static_cast<float>(goal.y)},
-                      world.perceived.tracks,
-                      guide,
-                      bounds_,
-                      radius_});
-  decided_at_ = world.now;
-  seen_ = world.scan.stamp;
-}
-
-Twist2 BaselineMotion::command(const motion::World& world, const motion::Intent& intent) noexcept {
-  const motion::Command was{static_cast<float>(world.driven.v_mps), static_cast<float>(world.driven.w_radps)};
-  if (std::fabs(was.v - commanded_.v) > 1e-4F) accel_ = 0.0F;  // the supervisor has set the speed
-  const double to_goal_m = distance(world.map_from_robot.position(), world.input.goal_in_map);
-  const bool there = to_goal_m < static_cast<double>(kStopWithin * tolerance_m_);
-  const bool rests = intent.kind != motion::Intent::Kind::kGoal || there || decided_at_ == kNever ||
-                     world.now - decided_at_ > kHoldsFor;
-  const bool turns = there && world.input.wants_heading() && std::fabs(was.v) < motion::kRestsMps;
-  const double error = turns ? world.input.heading_error_rad(world.map_from_robot) : 0.0;
-  const motion::Command at_rest{0.0F, std::clamp(kTurnGain * static_cast<float>(error), -bounds_.turn, bounds_.turn)};
-  const motion::RobotState next =
-      motion::moved({0.0F, 0.0F, 0.0F, was.v, was.w, accel_}, rests ? at_rest : decided_, bounds_, tick_s_);
-  accel_ = next.accel;
-  commanded_ = {next.v, next.w};
-  return {static_cast<double>(next.v), static_cast<double>(next.w)};
-}
 
 template <BaselineMotion::Decide deciding>
 std::unique_ptr<motion::Motion> make(const motion::MotionSetup& setup) {

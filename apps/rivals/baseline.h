@@ -4,7 +4,7 @@
 #include <span>
 #include <string>
 
-#include "planner/cell/circle.h"
+#include "planner/cell/cell.h"
 #include "planner/cost_to_go/guide.h"
 #include "planner/motion/motion.h"
 #include "planner/motion/robot_motion.h"

@@ -8,10 +8,10 @@
 #include "hal/maps/image_file.h"
 #include "hal/sim/walls.h"
 #include "hal/text_file.h"
-#include "hal/types/errors.h"
 
 #if defined(JAYWALK_HAS_CUDA) && JAYWALK_HAS_CUDA
 #include "cuda/paper/cuda_paper.h"
+#include "hal/types/errors.h"
 #else
 namespace jaywalk::paper {
 namespace {

@@ -178,8 +178,8 @@ double scale_of(const std::vector<Motion>& motions, const Vector6& p) {
   return *middle / kMedian3;
 }
 
-std::vector<MotionResidual> residuals(const std::vector<Motion>& motions, const Vector6& p) {
-  std::vector<MotionResidual> all;
+std::vector<Pose2> residuals(const std::vector<Motion>& motions, const Vector6& p) {
+  std::vector<Pose2> all;
   for (const Motion& motion : motions) {
     const Eigen::Vector3d e = residual(motion, p);
     if (motion.used) all.push_back({e[0], e[1], e[2]});

@@ -30,7 +30,6 @@ class CalibrationLog {
   /// A tick's newest reading and scan; the same ones again are passed over.
   void take(const WheelState& wheels, const LaserScan& scan);
 
-  [[nodiscard]] const std::vector<WheelTurns>& wheels() const { return wheels_; }
   [[nodiscard]] const std::vector<LaserScan>& scans() const { return scans_; }
   /// Between two readings, and straight on before the first and after the last.
   [[nodiscard]] WheelTurns at(Time stamp) const;
@@ -62,18 +61,14 @@ struct RobotGeometry {
 /// What the model says of the wheels and of one scanner's mount.
 [[nodiscard]] RobotGeometry believed_of(const RobotModel& model, std::size_t scanner = 0);
 
-/// What wheels and mount say of one motion of the laser, less what the scans say.
-struct MotionResidual {
-  double x_m = 0.0, y_m = 0.0, turn_rad = 0.0;
-};
-
 struct Calibration {
   RobotGeometry found;
   /// Half of each 95 % confidence interval: radii, track, mount's x, y (m), yaw (rad, in found's places). They hold
   /// what the residuals scatter, not what all of them have in common.
   RobotGeometry within;
-  std::vector<MotionResidual> before, after;  ///< as believed, and as found; of the motions that were used
-  std::size_t left_out = 0;                   ///< motions that fit nothing: slip, wrong matches
+  /// Motions of the laser by wheels and mount, less those by the scans: as believed, and as found; of those in use.
+  std::vector<Pose2> before, after;
+  std::size_t left_out = 0;  ///< motions that fit nothing: slip, wrong matches
 };
 
 /// From a drive that turned and went straight. `believed` is where the search begins: good to a tenth, 10 cm and 10

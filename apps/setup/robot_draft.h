@@ -81,7 +81,6 @@ class SetupAnswers {
   [[nodiscard]] std::string given_text(const std::string& section, const std::string& key) {
     return given(section, key) ? table(section)->text(key) : "";
   }
-  /// Folder of the file.
   [[nodiscard]] std::filesystem::path folder() const { return std::filesystem::path(name_).parent_path(); }
   [[nodiscard]] bool has_section(const std::string& section) const { return tables_.count(section) != 0; }
   /// How many scanners the file has, each in a section of its own by laser_section(); 0: none.
@@ -93,12 +92,12 @@ class SetupAnswers {
   /// else `suggestion` with `note`. Throws StartupError where none of the three gives a value.
   void settle(RobotDraft& draft, const std::string& section, const std::string& key, const std::string& suggestion = "",
               const std::string& note = "", const Check& check = {});
-  /// Tells a person what was found.
   void say(const std::string& found) const {
     if (asks()) *to_ << found << "\n";
   }
   /// What a person says of a key of any file, as TOML writes it.
-  [[nodiscard]] std::string said_of(const SettingKey& row) { return ask(row, row.section, ""); }
+  [[nodiscard]] std::string ask(const SettingKey& row, const std::string& section, const std::string& suggestion = "",
+                                const Check& check = {});
   /// The person's choice among several, from 0; without a person, or with one to choose from, the first.
   [[nodiscard]] std::size_t choose(const std::string& what, const std::vector<std::string>& among);
   [[nodiscard]] bool agrees(const std::string& question);
@@ -115,8 +114,6 @@ class SetupAnswers {
   void finish_section(RobotDraft& draft, const std::string& section, TomlTable& table);
   void take_tables(RobotDraft& draft, TomlTable& parent, const std::string& section, const std::string& key);
   void refuse_unknown(const std::string& section, const toml::value& raw);
-  [[nodiscard]] std::string ask(const SettingKey& row, const std::string& section, const std::string& suggestion,
-                                const Check& check = {});
   [[nodiscard]] std::string line(const std::string& question);
   void keep(const std::string& question, const std::string& answer);
 

@@ -27,21 +27,15 @@ constexpr std::array<DriveKindKeys, 3> kDriveKinds{{{"cia402", "counts_per_wheel
                                                     {"odrive", "motor_turns_per_wheel_turn"},
                                                     {"vesc", "electrical_turns_per_wheel_turn"}}};
 
-struct BusFinding {
-  std::string interface;
-  FoundDrives drives;
-};
-
 std::string listed(const FoundDrives& drives) {
   std::string words;
-  for (const FoundNode& node : drives.nodes)
-    words += (words.empty() ? "" : "; ") + std::to_string(int{node.node}) + ": " + node.said;
+  for (const auto& [node, said] : drives.nodes)
+    words += (words.empty() ? "" : "; ") + std::to_string(int{node}) + ": " + said;
   return words;
 }
 
-std::string in_words(const BusFinding& finding) {
-  return finding.interface + ", " + kDriveKinds[static_cast<std::size_t>(*finding.drives.kind)].kind + ": " +
-         listed(finding.drives);
+std::string in_words(const FoundDrives& drives) {
+  return drives.interface + ", " + kDriveKinds[static_cast<std::size_t>(*drives.kind)].kind + ": " + listed(drives);
 }
 
 /// Without quotes.
@@ -74,7 +68,7 @@ std::vector<ScannerKind> kinds_by_adapter(const std::string& line) {
 
 class Setup {
  public:
-  Setup(Surroundings& machine, SetupAnswers& answers, Clock& clock)
+  Setup(const Surroundings& machine, SetupAnswers& answers, Clock& clock)
       : machine_(machine), answers_(answers), clock_(clock) {}
 
   RobotDraft draft() {
@@ -96,10 +90,12 @@ class Setup {
  private:
   /// Before anything is asked: what is there.
   void look_around() {
-    for (const std::string& interface : interfaces()) look_at(interface);
+    const std::string named = answers_.given_text("drive", "can");
+    for (const std::string& interface : named.empty() ? machine_.can_interfaces() : std::vector{named})
+      look_at(interface);
     answers_.say("Found: " +
                  (drives_.empty() ? "no drives" + (seen_.empty() ? ": no CAN interface" : ": " + seen_) : ""));
-    for (const BusFinding& found : drives_) answers_.say("  " + in_words(found));
+    for (const FoundDrives& found : drives_) answers_.say("  " + in_words(found));
     scanners_ = find_scanners(places(laser_section(0)), clock_);
     answers_.say(scanners_.empty() ? "Found: no scanner" : "Found:");
     for (const FoundScanner& found : scanners_) answers_.say("  scanner " + describe(found));
@@ -118,7 +114,7 @@ class Setup {
     const auto ask = [&](const char* section, std::initializer_list<const char*> keys) {
       text += std::string("\n[") + section + "]\n";
       for (const char* key : keys)
-        text += std::string(key) + " = " + answers_.said_of(robot_model_keys().find(section, key)) + "\n";
+        text += std::string(key) + " = " + answers_.ask(robot_model_keys().find(section, key), section) + "\n";
     };
     const auto take = [&text](const char* key, double value) {
       text += std::string(key) + " = " + literal(value) + "\n";
@@ -158,7 +154,7 @@ class Setup {
   void draft_drives() {
     if (drives_.empty()) return draft_absent_drives();
     std::vector<std::string> words;
-    for (const BusFinding& finding : drives_) words.push_back(in_words(finding));
+    for (const FoundDrives& found : drives_) words.push_back(in_words(found));
     enter_drives(drives_[answers_.choose("drives", words)]);
   }
   /// A file for drives that are somewhere else, or off: as a person knows them.
@@ -177,39 +173,37 @@ class Setup {
     answers_.settle(draft_, "drive", "can", literal("can0"), "a guess");
     draft_wheels(*keys, "", "");
   }
-  [[nodiscard]] std::vector<std::string> interfaces() {
-    const std::string named = answers_.given_text("drive", "can");
-    return named.empty() ? machine_.can_interfaces() : std::vector{named};
-  }
   void look_at(const std::string& interface) {
     std::string said = interface + ": no drive answers";
     try {
       const std::unique_ptr<CanBus> bus = machine_.open_bus(interface);
       FoundDrives drives = find_drives(*bus, clock_);
       if (!drives.remark.empty()) draft_.remark(said = interface + ": " + drives.remark);
-      if (drives.kind) return drives_.push_back({interface, std::move(drives)});
+      drives.interface = interface;
+      if (drives.kind) return drives_.push_back(std::move(drives));
     } catch (const StartupError& error) {
       said = error.what();
     }
     seen_ += (seen_.empty() ? "" : "; ") + said;
   }
-  void enter_drives(const BusFinding& finding) {
-    const FoundDrives& drives = finding.drives;
+  void enter_drives(const FoundDrives& drives) {
     const DriveKindKeys& keys = kDriveKinds[static_cast<std::size_t>(*drives.kind)];
-    for (const FoundNode& node : drives.nodes)
-      draft_.remark(finding.interface + " " + keys.kind + " " + std::to_string(int{node.node}) + ": " + node.said);
+    std::vector<std::string> numbers;
+    for (const auto& [node, said] : drives.nodes) {
+      numbers.push_back(std::to_string(int{node}));
+      draft_.remark(drives.interface + " " + keys.kind + " " + numbers.back() + ": " + said);
+    }
     if (const std::string named = answers_.given_text("drive", "kind"); !named.empty() && named != keys.kind)
       throw StartupError(
-          "setup: drive.kind is answered as " + named + ", and " + finding.interface + " has " + keys.kind,
+          "setup: drive.kind is answered as " + named + ", and " + drives.interface + " has " + keys.kind,
           "correct the answer, or see which drives are on that bus");
     draft_.set("drive", "kind", literal(keys.kind), kFound);
-    draft_.set("drive", "can", literal(finding.interface), kFound);
+    draft_.set("drive", "can", literal(drives.interface), kFound);
     answers_.take_kind(keys.kind);
-    const bool is_pair = drives.nodes.size() == 2;
-    const auto number = [&](std::size_t k) { return is_pair ? std::to_string(int{drives.nodes[k].node}) : ""; };
-    if (drives.nodes.size() < 2)
-      throw StartupError("setup: " + finding.interface + " has one drive, " + listed(drives), "connect both");
-    draft_wheels(keys, number(0), number(1));
+    if (numbers.size() < 2)
+      throw StartupError("setup: " + drives.interface + " has one drive, " + listed(drives), "connect both");
+    if (numbers.size() > 2) numbers.assign(2, "");
+    draft_wheels(keys, numbers[0], numbers[1]);
   }
   void draft_wheels(const DriveKindKeys& keys, const std::string& left, const std::string& right) {
     constexpr const char* kGuess = "found; which side it is on shows jaywalk commission";
@@ -319,18 +313,17 @@ class Setup {
     const std::vector<std::string> joysticks = machine_.joysticks();
     for (const std::string& joystick : joysticks) draft_.remark("joystick " + joystick);
     if (joysticks.empty()) return;
-    const bool wished = answers_.has_section("panel") || answers_.agrees("Is a joystick to be the robot's panel?");
-    if (!wished) return;
+    if (!answers_.has_section("panel") && !answers_.agrees("Is a joystick to be the robot's panel?")) return;
     if (!answers_.given("panel", "joystick"))
       draft_.set("panel", "joystick", literal(joysticks[answers_.choose("panel", joysticks)]), kFound);
     answers_.settle(draft_, "panel", "needs_dead_man", "true", "the default");
   }
 
-  Surroundings& machine_;
+  const Surroundings& machine_;
   SetupAnswers& answers_;
   Clock& clock_;
   RobotDraft draft_;
-  std::vector<BusFinding> drives_;
+  std::vector<FoundDrives> drives_;
   std::string seen_;  ///< on interfaces without drives
   std::vector<FoundScanner> scanners_;
   std::set<std::string> taken_;  ///< places of the scanners in the draft
@@ -339,7 +332,7 @@ class Setup {
 
 }  // namespace
 
-RobotDraft draft_robot(Surroundings& machine, SetupAnswers& answers, Clock& clock) {
+RobotDraft draft_robot(const Surroundings& machine, SetupAnswers& answers, Clock& clock) {
   return Setup(machine, answers, clock).draft();
 }
 

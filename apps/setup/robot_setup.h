@@ -1,6 +1,8 @@
 #pragma once
 // `jaywalk setup`: finds a robot's devices, asks what cannot be seen, and drafts its ROBOT.toml.
 #include <cstdint>
+#include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -35,15 +37,14 @@ struct FoundScanner {
 /// "sick-cola-b at 192.168.0.1:2112: 811 beams over 270.00 degrees, 15 a second"
 [[nodiscard]] std::string describe(const FoundScanner& scanner);
 
-struct FoundNode {
-  std::uint8_t node = 0;
-  std::string said;  ///< "vendor 0000029Ch, product 00020192h, ...", or what it was known by
-};
+/// Nodes by number, and what each said: "vendor 0000029Ch, product 00020192h, ...", or what it was known by.
+using FoundNodes = std::map<std::uint8_t, std::string>;
 
 struct FoundDrives {
   std::optional<DriveKind> kind;  ///< none: no drives that this program knows
-  std::vector<FoundNode> nodes;   ///< of that kind, by number
+  FoundNodes nodes;               ///< of that kind
   std::string remark;             ///< what else there is; empty where nothing is
+  std::string interface = {};     ///< of CAN; find_drives() does not know it
 };
 
 /// Listens for a second: ODrives and VESCs speak by themselves. Where none does, CANopen nodes 1 to 127 are asked what
@@ -56,27 +57,23 @@ struct FoundDrives {
 [[nodiscard]] std::optional<std::uint32_t> find_pioneer(const std::string& device, Clock& clock);
 
 /// What a machine has that a robot's devices may hang on. Start-up only. Thread: one.
-class Surroundings {
- public:
-  virtual ~Surroundings() = default;
-  /// Names of CAN interfaces, up or down.
-  [[nodiscard]] virtual std::vector<std::string> can_interfaces() = 0;
+struct Surroundings {
+  using Names = std::function<std::vector<std::string>()>;
+
+  Names can_interfaces;  ///< up or down
+  Names serial_lines;    ///< by names that do not change
+  Names hosts;           ///< addresses at which a scanner may answer: makers' own, and those this machine has spoken to
+  Names joysticks;       ///< behind evdev, by names that do not change
   /// All frames of the interface, and the sole right to command there while it is kept. Throws StartupError where it is
   /// down, or another program has it.
-  [[nodiscard]] virtual std::unique_ptr<CanBus> open_bus(const std::string& interface) = 0;
-  /// Serial lines by names that do not change.
-  [[nodiscard]] virtual std::vector<std::string> serial_lines() = 0;
-  /// Addresses at which a scanner may answer: those that makers set, and those this machine has spoken to.
-  [[nodiscard]] virtual std::vector<std::string> hosts() = 0;
-  /// Joysticks behind evdev, by names that do not change.
-  [[nodiscard]] virtual std::vector<std::string> joysticks() = 0;
+  std::function<std::unique_ptr<CanBus>(const std::string& interface)> open_bus;
 };
 
 /// This machine: /sys, /dev and the kernel's table of neighbours. `clock` outlives it.
-[[nodiscard]] std::unique_ptr<Surroundings> this_machine(Clock& clock);
+[[nodiscard]] Surroundings this_machine(Clock& clock);
 
 /// Nothing moves, and no device's setting is changed but what makes a scanner send. What the answers name is looked for
 /// there alone. Takes some seconds, up to ten. Throws StartupError where the drives or a key are not to be known.
-[[nodiscard]] RobotDraft draft_robot(Surroundings& machine, SetupAnswers& answers, Clock& clock);
+[[nodiscard]] RobotDraft draft_robot(const Surroundings& machine, SetupAnswers& answers, Clock& clock);
 
 }  // namespace jaywalk

@@ -4,12 +4,17 @@
 #include <filesystem>
 #include <fstream>
 #include <memory>
+#include <set>
 #include <sstream>
 
 #include "apps/setup/robot_setup.h"
-#include "drivers/can/can_interface.h"
+#include "drivers/arcos/arcos_base.h"
 #include "drivers/can/socketcan.h"
+#include "drivers/canopen/sdo_client.h"
 #include "drivers/laser/scanner_connection.h"
+#include "drivers/motor/odrive.h"
+#include "drivers/motor/vesc.h"
+#include "drivers/wire/byte_reader.h"
 #include "hal/shown_text.h"
 #include "hal/types/errors.h"
 
@@ -46,40 +51,31 @@ class LockedBus final : public CanBus {
   SocketCan bus_;
 };
 
-class ThisMachine final : public Surroundings {
- public:
-  explicit ThisMachine(Clock& clock) : clock_(clock) {}
+std::unique_ptr<CanBus> open_locked(const std::string& interface, Clock& clock) {
+  const LinkFacts facts = link_facts(interface);
+  if (!facts.is_up)
+    throw StartupError(interface + (facts.exists ? ": is down" : ": no such interface"),
+                       "ip link set " + interface + " up type can bitrate 500000, with the rate the drives have");
+  return std::make_unique<LockedBus>(interface, clock);
+}
 
-  [[nodiscard]] std::vector<std::string> can_interfaces() override { return jaywalk::can_interfaces(); }
-  [[nodiscard]] std::unique_ptr<CanBus> open_bus(const std::string& interface) override {
-    const LinkFacts facts = link_facts(interface);
-    if (!facts.is_up)
-      throw StartupError(interface + (facts.exists ? ": is down" : ": no such interface"),
-                         "ip link set " + interface + " up type can bitrate 500000, with the rate the drives have");
-    return std::make_unique<LockedBus>(interface, clock_);
+std::vector<std::string> known_hosts() {
+  std::vector<std::string> hosts(kMakersHosts.begin(), kMakersHosts.end());
+  std::ifstream neighbours("/proc/net/arp");
+  std::string line;
+  std::getline(neighbours, line);  // the columns' names
+  while (std::getline(neighbours, line) && hosts.size() < kMostHosts) {
+    std::string address;
+    std::istringstream(line) >> address;
+    if (std::ranges::count(hosts, address) == 0) hosts.push_back(address);
   }
-  [[nodiscard]] std::vector<std::string> serial_lines() override { return files_in("/dev/serial/by-id", ""); }
-  [[nodiscard]] std::vector<std::string> hosts() override {
-    std::vector<std::string> hosts(kMakersHosts.begin(), kMakersHosts.end());
-    std::ifstream neighbours("/proc/net/arp");
-    std::string line;
-    std::getline(neighbours, line);  // the columns' names
-    while (std::getline(neighbours, line) && hosts.size() < kMostHosts) {
-      std::string address;
-      std::istringstream(line) >> address;
-      if (std::find(hosts.begin(), hosts.end(), address) == hosts.end()) hosts.push_back(address);
-    }
-    return hosts;
-  }
-  [[nodiscard]] std::vector<std::string> joysticks() override {
-    std::vector<std::string> found = files_in("/dev/input/by-id", "-event-joystick");
-    const std::vector<std::string> by_path = files_in("/dev/input/by-path", "-event-joystick");
-    return found.empty() ? by_path : found;
-  }
+  return hosts;
+}
 
- private:
-  Clock& clock_;
-};
+std::vector<std::string> joystick_files() {
+  const std::vector<std::string> found = files_in("/dev/input/by-id", "-event-joystick");
+  return found.empty() ? files_in("/dev/input/by-path", "-event-joystick") : found;
+}
 
 constexpr Duration kPatience = std::chrono::seconds(3), kReplyStep = std::chrono::milliseconds(1);
 constexpr std::size_t kPeriodsForRate = 10;
@@ -154,9 +150,91 @@ void listen(std::vector<std::unique_ptr<Trial>>& trials, Clock& clock) {
   }
 }
 
+constexpr Duration kListen = std::chrono::seconds(1);  ///< ODrives and VESCs speak ten times a second at least
+constexpr Duration kAnswerLimit = std::chrono::milliseconds(300);
+constexpr Duration kStep = std::chrono::milliseconds(2);  ///< two frames fit into it at 125 kbit/s
+constexpr int kPulses = 2;                                ///< to a Pioneer, at each rate
+constexpr std::uint8_t kLastNode = 127;
+constexpr std::uint32_t kDriveProfile = 402;
+
+/// Nodes that spoke without being asked.
+struct Voices {
+  std::set<std::uint8_t> odrives, odrive_estimates, vescs;
+
+  void take(const CanFrame& frame) {
+    if (const auto message = odrive::decode(frame)) {
+      if (std::holds_alternative<odrive::Heartbeat>(message->content)) odrives.insert(message->node);
+      if (std::holds_alternative<odrive::EncoderEstimates>(message->content)) odrive_estimates.insert(message->node);
+    }
+    if (const auto message = vesc::decode(frame)) {
+      const auto& content = message->content;
+      if (std::holds_alternative<vesc::Status>(content) || std::holds_alternative<vesc::Travel>(content))
+        vescs.insert(message->controller);
+    }
+  }
+};
+
+/// Asks all of `nodes` at once. What each answers; none where it does not, or has no such object.
+std::map<std::uint8_t, std::uint32_t> ask(CanBus& bus, Clock& clock, const std::set<std::uint8_t>& nodes,
+                                          canopen::ObjectAddress address) {
+  std::map<std::uint8_t, canopen::SdoClient> clients;
+  const auto pass = [&](Duration time) {
+    clock.sleep_until(clock.now() + time);
+    const Time now = clock.now();
+    ReceivedFrame received;
+    while (bus.receive(received))
+      for (auto& [node, client] : clients) client.on_frame(received.frame, now);
+    for (auto& [node, client] : clients) client.poll(now);
+  };
+  for (const std::uint8_t node : nodes) {
+    static_cast<void>(clients.try_emplace(node, bus, node, kAnswerLimit).first->second.read(address, clock.now()));
+    pass(kStep);
+  }
+  for (const Time until = clock.now() + kAnswerLimit + kStep; clock.now() < until;) pass(kStep);
+  std::map<std::uint8_t, std::uint32_t> answers;
+  for (const auto& [node, client] : clients) {
+    if (client.status() != canopen::SdoStatus::kDone || client.value().size() > 4) continue;
+    std::array<std::uint8_t, 4> bytes{};
+    std::ranges::copy(client.value(), bytes.begin());
+    answers[node] = wire::little_endian<std::uint32_t>(bytes);
+  }
+  return answers;
+}
+
+FoundDrives ask_canopen(CanBus& bus, Clock& clock) {
+  std::set<std::uint8_t> all, drives;
+  for (std::uint8_t node = 1; node <= kLastNode; ++node) all.insert(node);
+  FoundDrives found;
+  for (const auto& [node, type] : ask(bus, clock, all, {0x1000, 0})) {
+    if ((type & 0xFFFFU) == kDriveProfile) {
+      drives.insert(node);
+    } else {
+      found.remark += (found.remark.empty() ? "" : "; ") + ("CANopen node " + std::to_string(int{node})) +
+                      " is no CiA 402 drive, by its 1000h";
+    }
+  }
+  if (drives.empty()) return found;
+  found.kind = DriveKind::kCia402;
+  constexpr std::array kParts{"vendor", "product", "revision", "serial number"};
+  for (std::uint8_t sub = 1; sub <= kParts.size(); ++sub) {
+    for (const auto& [node, value] : ask(bus, clock, drives, {0x1018, sub})) {
+      std::string& said = found.nodes[node];
+      said += formatted("%s%s %08Xh", said.empty() ? "" : ", ", kParts[sub - 1U], static_cast<unsigned>(value));
+    }
+  }
+  for (const std::uint8_t node : drives) found.nodes.try_emplace(node, "no identity (1018h)");
+  return found;
+}
+
 }  // namespace
 
-std::unique_ptr<Surroundings> this_machine(Clock& clock) { return std::make_unique<ThisMachine>(clock); }
+Surroundings this_machine(Clock& clock) {
+  return {.can_interfaces = can_interfaces,
+          .serial_lines = [] { return files_in("/dev/serial/by-id", ""); },
+          .hosts = known_hosts,
+          .joysticks = joystick_files,
+          .open_bus = [&clock](const std::string& interface) { return open_locked(interface, clock); }};
+}
 
 std::vector<FoundScanner> find_scanners(const std::vector<ScannerPlace>& places, Clock& clock) {
   std::vector<std::optional<FoundScanner>> by_place(places.size());
@@ -180,6 +258,42 @@ std::string describe(const FoundScanner& scanner) {
   const std::string figures = formatted(": %u beams over %.2f degrees, %g a second",
                                         static_cast<unsigned>(scanner.beams), scanner.fov_deg, scanner.rate_hz);
   return std::string(scanner_make(scanner.wiring.kind).name) + " at " + name_of(scanner.wiring) + figures;
+}
+
+FoundDrives find_drives(CanBus& bus, Clock& clock) {
+  Voices voices;
+  for (const Time until = clock.now() + kListen; clock.now() < until;) {
+    clock.sleep_until(clock.now() + kStep);
+    ReceivedFrame received;
+    while (bus.receive(received)) voices.take(received.frame);
+  }
+  FoundNodes odrives, vescs;
+  std::vector<std::string> others;
+  for (const std::uint8_t node : voices.odrives) {  // both messages of an axis: one alone may be some other device's
+    if (!voices.odrive_estimates.contains(node)) continue;
+    odrives[node] = "heartbeat and encoder estimates heard";
+    others.push_back(std::to_string(int{node}));
+  }
+  for (const std::uint8_t node : voices.vescs) vescs[node] = "status messages heard";
+  if (odrives.empty() && vescs.empty()) return ask_canopen(bus, clock);
+  if (vescs.empty()) return {DriveKind::kOdrive, odrives, ""};
+  return {DriveKind::kVesc, vescs, others.empty() ? "" : "ODrives are there as well: " + joined(others)};
+}
+
+std::optional<std::uint32_t> find_pioneer(const std::string& device, Clock& clock) {
+  for (const std::uint32_t baud : {9600U, 115200U, 57600U, 38400U, 19200U}) {  // the factory's first
+    ByteBus line(wire::make_byte_link("", 0, device, baud), clock);
+    arcos::PacketReader reader;
+    const arcos::Packet pulse = arcos::packet_of({arcos::Command::kPulse});
+    for (int k = 0; k < kPulses; ++k) {
+      in_frames(pulse.on_line(), [&line](const CanFrame& frame) { static_cast<void>(line.send(frame)); });
+      clock.sleep_until(clock.now() + kAnswerLimit);
+      ReceivedFrame received;
+      while (line.receive(received)) reader.append(received.frame.payload());
+      if (!reader.next().empty()) return baud;
+    }
+  }
+  return {};
 }
 
 }  // namespace jaywalk

@@ -22,8 +22,6 @@ struct ArmedRobot {
   Duration tick = std::chrono::milliseconds(20);
 };
 
-// The motions of a commissioning run: each wheel a little forward and back, the other one at rest.
-
 /// One wheel turned by itself, and what drive and scanners said at rest before and after.
 struct Nudge {
   std::size_t side = 0;  ///< 0: left

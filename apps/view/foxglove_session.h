@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "hal/types/wheels.h"
@@ -19,11 +20,8 @@ struct FoxgloveChannel {
   std::string schema;  ///< its definition as ROS 2 writes it
 };
 
-/// A setting of the robot: read, never set.
-struct FoxgloveParameter {
-  std::string name;  ///< "/jaywalk.max_speed_mps", as ROS 2 names a node's
-  double value = 0.0;
-};
+/// A setting of the robot, read, never set: its name as ROS 2 has a node's ("/jaywalk.max_speed_mps"), its value.
+using FoxgloveParameter = std::pair<std::string, double>;
 
 /// The first of a handshake's Sec-WebSocket-Protocol that is spoken here; empty where none is.
 [[nodiscard]] std::string foxglove_subprotocol(std::string offered);

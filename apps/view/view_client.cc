@@ -8,7 +8,18 @@
 
 namespace jaywalk::view {
 namespace {
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+namespace http = beast::http;
+namespace websocket = beast::websocket;
+
 constexpr std::chrono::seconds kStuck{1};
+constexpr std::size_t kMostRequest = 8192;     ///< bytes of its head; a body is not wanted
+constexpr std::size_t kMostPayload = 8192;     ///< orders have about 50, an advertisement with its schema some hundred
+constexpr std::size_t kMostUnread = 64 << 10;  ///< bytes: a client with more is asked for nothing
+constexpr std::chrono::seconds kAnswered{5};   ///< from its first byte to the answer's last
+constexpr std::chrono::seconds kQuiet{30};     ///< a WebSocket; it is asked by a ping after half of it
+constexpr double kMessages_hz = 50.0, kMostAtOnce = 100.0;
 
 /// A name that another site's page cannot have: else a foreign name that leads to this machine would do as well.
 bool is_loopback_name(const std::string& host) {
@@ -43,6 +54,8 @@ bool is_same_secret(std::string_view a, std::string_view b) {
 }
 
 ViewVerdict refused(unsigned status, std::string said) { return {.status = status, .said = std::move(said) + "\n"}; }
+
+std::string text_of(beast::string_view text) { return {text.data(), text.size()}; }
 
 }  // namespace
 
@@ -81,23 +94,6 @@ std::optional<std::size_t> gives_way(std::span<const Placed> placed, Stage stage
   const bool must = stage != Stage::kLooks || stuck(*worst) >= kStuck || held[worst->address] >= held[address] + 2;
   return must ? std::optional(static_cast<std::size_t>(worst - placed.begin())) : std::nullopt;
 }
-
-namespace {
-namespace asio = boost::asio;
-namespace beast = boost::beast;
-namespace http = beast::http;
-namespace websocket = beast::websocket;
-
-constexpr std::size_t kMostRequest = 8192;     ///< bytes of its head; a body is not wanted
-constexpr std::size_t kMostPayload = 8192;     ///< orders have about 50, an advertisement with its schema some hundred
-constexpr std::size_t kMostUnread = 64 << 10;  ///< bytes: a client with more is asked for nothing
-constexpr std::chrono::seconds kAnswered{5};   ///< from its first byte to the answer's last
-constexpr std::chrono::seconds kQuiet{30};     ///< a WebSocket; it is asked by a ping after half of it
-constexpr double kMessages_hz = 50.0, kMostAtOnce = 100.0;
-
-std::string text_of(beast::string_view text) { return {text.data(), text.size()}; }
-
-}  // namespace
 
 ViewClient::ViewClient(asio::ip::tcp::socket socket, BeastServer& server)
     : socket_(std::move(socket)), server_(server), received_(2 * kMostRequest), allowance_(kMostAtOnce) {

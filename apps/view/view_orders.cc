@@ -2,10 +2,10 @@
 
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "apps/formats/wire_reader.h"
+#include "hal/shown_text.h"
 #include "hal/types/trig.h"
 
 namespace jaywalk::view {
@@ -108,11 +108,9 @@ std::optional<GoalOrder> goal_from_json(std::string_view message) {
 }
 
 std::string to_json(const GoalOrder& goal, const char* name) {
-  char text[160], heading[40] = "";
-  if (!std::isnan(goal.heading_rad)) std::snprintf(heading, sizeof heading, ",%.9g", goal.heading_rad);
-  std::snprintf(text, sizeof text, R"({"%s":[%.9g,%.9g%s]})", name, goal.position_in_map.x, goal.position_in_map.y,
-                heading);
-  return text;
+  const std::string heading = std::isnan(goal.heading_rad) ? "" : formatted(",%.9g", goal.heading_rad);
+  const Vec2 goal_m = goal.position_in_map;
+  return formatted(R"({"%s":[%.9g,%.9g%s]})", name, goal_m.x, goal_m.y, heading.c_str());
 }
 
 }  // namespace jaywalk::view

@@ -28,12 +28,6 @@ std::filesystem::path folder_of(const std::filesystem::path& file) {
   return std::filesystem::canonical(file, missing).parent_path();
 }
 
-std::unique_ptr<Planner> planner_for(ControlSetup setup) {
-  // The bits are the same wherever it is replayed.
-  if (setup.backend == Backend::kCuda) setup.backend = Backend::kAuto;
-  return make_planner(setup).planner;
-}
-
 }  // namespace
 
 RecordedRun::RecordedRun(const std::filesystem::path& run, FilePart place)
@@ -41,6 +35,7 @@ RecordedRun::RecordedRun(const std::filesystem::path& run, FilePart place)
   file_ = is_in_parts() ? run : files_[0];
   setup_ = setup_from_text(reader_->setup(), files_[0].string());
   equip(setup_);
+  if (setup_.backend == Backend::kCuda) setup_.backend = Backend::kAuto;  // the same bits wherever it is replayed
   if (!reader_->next(record_))
     throw StartupError(files_[0].string() + ": no whole tick in it", "take an undamaged copy of the recording");
   if (!begins_anew()) return;
@@ -101,7 +96,7 @@ bool SeenRun::step() {
 RelivedRun::RelivedRun(RecordedRun& run)
     : run_(run),
       devices_(run.last()),
-      planner_(planner_for(run.setup()), run.last()),
+      planner_(make_planner(run.setup()).planner, run.last()),
       loop_(run.setup(), devices_.hal(run.setup().model.lasers().size()), planner_, recorder_) {}
 
 bool RelivedRun::step() {

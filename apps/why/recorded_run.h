@@ -85,7 +85,6 @@ class RelivedRun {
   /// `run`, at its beginning, outlives it.
   explicit RelivedRun(RecordedRun& run);
 
-  /// Lives through the next tick.
   [[nodiscard]] bool step();
   /// The tick just lived through.
   [[nodiscard]] const TickRecord& last() const { return *last_; }

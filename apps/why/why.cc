@@ -48,8 +48,9 @@ Meeting nearest_on(const Driven& driven, const motion::Futures& futures, std::si
     const motion::MoverAt& at = futures.at(step, mover);
     for (int k = 0; k < motion::kFutures; ++k) {
       const Vec2 place{static_cast<double>(at.x[k]), static_cast<double>(at.y[k])};
-      best.consider(footprint.distance_to(robot_from_map * place) - static_cast<double>(futures.radius(mover)),
-                    step * static_cast<double>(motion::kFutureStepS));
+      best.consider(
+          footprint.distance_to(robot_from_map * place) - static_cast<double>(futures.movers()[mover].radius_m),
+          step * static_cast<double>(motion::kFutureStepS));
     }
   }
   return best;
@@ -58,7 +59,7 @@ Meeting nearest_on(const Driven& driven, const motion::Futures& futures, std::si
 /// Name of a mover: "body 7" where it is tracked. One that stands may be no track.
 std::string name_of(const motion::Futures& futures, std::size_t mover, std::span<const Track> tracks) {
   constexpr double kSame_m = 0.5;
-  if (futures.is_hidden(mover)) return "a pedestrian out of sight";
+  if (futures.movers()[mover].is_hidden) return "a pedestrian out of sight";
   const motion::MoverAt& now = futures.at(0, mover);
   const Vec2 place{static_cast<double>(now.mid_x), static_cast<double>(now.mid_y)};
   const auto off_m = [&](const Track& track) { return distance(track.position_in_map, place); };
@@ -72,7 +73,7 @@ std::string met_in_words(const Driven& driven, const RelivedRun& run) {
   const motion::Futures& futures = run.loop().motion().rollouts()->futures();
   Meeting met;
   std::size_t who = 0;
-  for (std::size_t m = 0; m < futures.movers(); ++m) {
+  for (std::size_t m = 0; m < futures.movers().size(); ++m) {
     const Meeting nearest = nearest_on(driven, futures, m, run.recorded().setup().model.footprint);
     if (nearest.gap_m < met.gap_m) met = nearest, who = m;
   }
@@ -264,7 +265,7 @@ DecisionScene scene_of(const motion::GoalRollouts& motion, const std::vector<mot
     scene.ways.push_back({std::move(name), way_of(decision.start, a.driven), a.cost.total() - decision.cost.total()});
   }
   scene.chosen = way_of(decision.start, decision.driven);
-  for (std::size_t m = 0; m < motion.futures().movers(); ++m) {
+  for (std::size_t m = 0; m < motion.futures().movers().size(); ++m) {
     for (int step = 0; step < motion::kFutureSteps; step += kEvery) {
       const motion::MoverAt& at = motion.futures().at(step, m);
       const double share = static_cast<double>(step) / (motion::kFutureSteps - 1);

@@ -15,14 +15,6 @@
 namespace jaywalk {
 namespace {
 
-struct WhyOptions {
-  std::filesystem::path run;  ///< a run's folder, or a recording.jwr
-  double at_s = 0.0;
-  std::filesystem::path out = "out/why";
-};
-
-WhyOptions why_options;
-
 constexpr double kShown_m = 8.0;  // to each side of the robot
 
 /// How robot and bodies went until the moment.
@@ -44,11 +36,9 @@ struct Past {
   }
   /// Of the tracks followed now.
   [[nodiscard]] std::vector<Trail> trails(const RelivedRun& run) const {
-    std::vector<Trail> known;
-    for (const Trail& trail : bodies.trails()) {
-      for (const Track& track : run.loop().tracker().tracks())
-        if (track.id == trail.id) known.push_back(trail);
-    }
+    std::vector<Trail> known = bodies.trails();
+    const auto tracks = run.loop().tracker().tracks();
+    std::erase_if(known, [&](const Trail& trail) { return std::ranges::count(tracks, trail.id, &Track::id) == 0; });
     return known;
   }
 };
@@ -121,14 +111,15 @@ std::optional<std::filesystem::path> save(const PictureScene& scene, const std::
   return folder / "why.png";
 }
 
-int run_why(const WhyOptions& options) {
-  RecordedRun recorded(options.run);
+/// `folder`: a run's, or a recording.jwr; `out`: where the picture goes.
+int run_why(const std::filesystem::path& folder, double at_s, const std::filesystem::path& out) {
+  RecordedRun recorded(folder);
   RelivedRun run(recorded);
-  if (!std::isfinite(options.at_s)) throw StartupError("T_S: no time", "give seconds");
-  const Past past = relive(run, options.at_s);
+  if (!std::isfinite(at_s)) throw StartupError("T_S: no time", "give seconds");
+  const Past past = relive(run, at_s);
   const Weighed weighed = weighed_by(run, past);
-  const std::optional<std::filesystem::path> drawn = save(scene_of(run, past, weighed), options.out);
-  if (!weighed.alternatives.empty()) write_alternatives(weighed.alternatives, (options.out / "why.csv").string());
+  const std::optional<std::filesystem::path> drawn = save(scene_of(run, past, weighed), out);
+  if (!weighed.alternatives.empty()) write_alternatives(weighed.alternatives, (out / "why.csv").string());
   std::fputs(why_words(run, weighed).c_str(), stdout);
   std::fputs(run.remarks().c_str(), stderr);
   if (drawn) std::printf("See %s\n", drawn->c_str());
@@ -138,11 +129,13 @@ int run_why(const WhyOptions& options) {
 }  // namespace
 
 void add_why(CLI::App& app, int& exit_code) {
+  static std::filesystem::path run, out = "out/why";
+  static double at_s = 0.0;
   CLI::App* why = app.add_subcommand("why", "One moment of a recording: what it saw, wanted, was permitted, and why");
-  why->add_option("run", why_options.run, "A run's folder, or its recording.jwr")->required();
-  why->add_option("t_s", why_options.at_s, "When, in seconds of the recording's clock")->required();
-  why->add_option("--out", why_options.out, "Folder for why.png")->capture_default_str();
-  why->callback([&exit_code] { exit_code = run_why(why_options); });
+  why->add_option("run", run, "A run's folder, or its recording.jwr")->required();
+  why->add_option("t_s", at_s, "When, in seconds of the recording's clock")->required();
+  why->add_option("--out", out, "Folder for why.png")->capture_default_str();
+  why->callback([&exit_code] { exit_code = run_why(run, at_s, out); });
 }
 
 }  // namespace jaywalk

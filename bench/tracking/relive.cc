@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/formats/logs/line_file.h"
+#include "apps/formats/logs/log_checks.h"
 #include "apps/formats/logs/log_replay.h"
 #include "apps/report/run_report.h"
 #include "bench/command_line.h"

@@ -7,7 +7,6 @@
 
 #include "apps/report/distribution.h"
 #include "bench/command_line.h"
-#include "bench/figure_table.h"
 #include "bench/tracking/crowd.h"
 #include "hal/sim/social_walkers.h"
 

@@ -7,7 +7,6 @@
 
 #include "apps/report/distribution.h"
 #include "bench/command_line.h"
-#include "bench/figure_table.h"
 #include "firmware/backends.h"
 #include "hil/far_end/simulated_robot.h"
 

@@ -1,10 +1,8 @@
 #include <utility>
 
 #include "cuda/cuda_device.h"
-#include "cuda/kernels.h"
 #include "cuda/paper/cuda_paper.h"
 #include "planner/paper/executor.h"
-#include "planner/paper/map_field_on.h"
 #include "planner/paper/paper_planner.h"
 
 namespace jaywalk::paper {
@@ -52,8 +50,7 @@ class CudaExecutor {
   }
   template <class Stage>
   void for_each_cell(std::int32_t w, std::int32_t h, const Stage& stage) noexcept {
-    const std::int32_t n = w * h;
-    if (n > 0) device_.launch(visit<Stage>, (n + kVisitThreads - 1) / kVisitThreads, kVisitThreads, stage, w, n);
+    if (w * h > 0) device_.launch_visits(stage, w, w * h);
   }
   /// Zeros where the device has failed: the caller then finds no way, and stops.
   [[nodiscard]] Counted total(std::int32_t n, const Counted* counted) noexcept {

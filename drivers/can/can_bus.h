@@ -98,8 +98,7 @@ class BusWatch {
 
 /// The first of `bytes`, up to eight, as a frame; they are taken off.
 [[nodiscard]] inline CanFrame first_frame(wire::Bytes& bytes) noexcept {
-  CanFrame frame;
-  frame.size = static_cast<std::uint8_t>(std::min(bytes.size(), frame.bytes.size()));
+  CanFrame frame{.size = static_cast<std::uint8_t>(std::min<std::size_t>(bytes.size(), 8))};
   std::copy_n(bytes.begin(), frame.size, frame.bytes.begin());
   bytes = bytes.subspan(frame.size);
   return frame;

@@ -15,8 +15,7 @@ constexpr std::uint16_t kDisableVoltage = 0x0000, kQuickStop = 0x0002, kShutdown
                         kEnableOperation = 0x000F, kFaultReset = 0x0080;
 
 struct Pattern {
-  std::uint16_t mask;
-  std::uint16_t value;
+  std::uint16_t mask, value;
   DriveState state;
 };
 
@@ -45,25 +44,13 @@ std::uint16_t step_to_enabled(DriveState state) noexcept {
 }  // namespace
 
 CanFrame nmt_frame(NmtCommand command, std::uint8_t node) noexcept {
-  CanFrame frame;
-  frame.id = kNmtId;
-  frame.size = 2;
-  frame.bytes = {static_cast<std::uint8_t>(command), node};
-  return frame;
+  return {.id = kNmtId, .size = 2, .bytes = {static_cast<std::uint8_t>(command), node}};
 }
 
-CanFrame sync_frame() noexcept {
-  CanFrame frame;
-  frame.id = kSyncId;
-  return frame;
-}
+CanFrame sync_frame() noexcept { return {.id = kSyncId}; }
 
 CanFrame heartbeat_frame(std::uint8_t node, NmtState state) noexcept {
-  CanFrame frame;
-  frame.id = kHeartbeatBase + node;
-  frame.size = 1;
-  frame.bytes = {static_cast<std::uint8_t>(state)};
-  return frame;
+  return {.id = kHeartbeatBase + node, .size = 1, .bytes = {static_cast<std::uint8_t>(state)}};
 }
 
 std::optional<NmtState> heartbeat_in(const CanFrame& frame, std::uint8_t node) noexcept {
@@ -91,19 +78,13 @@ DriveState state_of(std::uint16_t statusword) noexcept {
 
 std::uint16_t controlword_towards(DriveGoal goal, DriveState state, bool reset_fault) noexcept {
   if (state == DriveState::kFault) return reset_fault ? kFaultReset : kDisableVoltage;
-  switch (goal) {
-    case DriveGoal::kEnabled: return step_to_enabled(state);
-    case DriveGoal::kQuickStop:
-      return kQuickStop;  // in every state: what is known of the drive may be old, and it must brake, not roll
-    case DriveGoal::kOff: break;
-  }
-  return kDisableVoltage;
+  if (goal == DriveGoal::kEnabled) return step_to_enabled(state);
+  // A quick stop in every state: what is known of the drive may be old, and it must brake, not roll.
+  return goal == DriveGoal::kQuickStop ? kQuickStop : kDisableVoltage;
 }
 
 CanFrame command_frame(std::uint8_t node, std::uint16_t controlword, std::int32_t target) noexcept {
-  CanFrame frame;
-  frame.id = 0x200U + node;
-  frame.size = 6;
+  CanFrame frame{.id = 0x200U + node, .size = 6};
   wire::put_little_endian(controlword, frame.bytes);
   wire::put_little_endian(static_cast<std::uint32_t>(target), std::span(frame.bytes).subspan(2));
   return frame;

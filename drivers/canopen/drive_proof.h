@@ -1,5 +1,6 @@
 #pragma once
 // The settings of a CiA 402 drive, and the proof that it has them.
+
 #include <cstdint>
 #include <optional>
 #include <string>

@@ -159,11 +159,7 @@ void SdoClient::send_addressed(std::uint8_t command, std::uint32_t word) noexcep
 }
 
 void SdoClient::send(const std::array<std::uint8_t, 8>& bytes) noexcept {
-  CanFrame frame;
-  frame.id = kRequestBase + node_;
-  frame.size = 8;
-  frame.bytes = bytes;
-  if (!bus_.send(frame)) finish(SdoStatus::kNotSent);
+  if (!bus_.send({.id = kRequestBase + node_, .size = 8, .bytes = bytes})) finish(SdoStatus::kNotSent);
 }
 
 void SdoClient::abort_here(std::uint32_t code) noexcept {

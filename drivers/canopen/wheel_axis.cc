@@ -132,11 +132,8 @@ CanFrame WheelAxis::target(DriveGoal goal, double wanted_radps) noexcept {
 }
 
 CanFrame WheelAxis::quick_stop_request() const noexcept {
-  CanFrame frame;
-  frame.id = kSdoRequest + setup_.node;
-  frame.size = 8;
-  frame.bytes = {0x2B, 0x40, 0x60, 0x00, 0x02};  // an expedited write of two bytes, 0002h, to 6040h
-  return frame;
+  // An expedited write of two bytes, 0002h, to 6040h.
+  return {.id = kSdoRequest + setup_.node, .size = 8, .bytes = {0x2B, 0x40, 0x60, 0x00, 0x02}};
 }
 
 Identifiers masters_identifiers(std::uint8_t controller_node, const std::array<std::uint8_t, 2>& drives) noexcept {

@@ -1,4 +1,4 @@
-#include "drivers/laser/ldrobot.h"
+#include "drivers/laser/serial_scanners.h"
 
 namespace jaywalk::ldrobot {
 namespace {

@@ -1,10 +1,9 @@
-#include "drivers/laser/lms200.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 
+#include "drivers/laser/serial_scanners.h"
 #include "hal/types/trig.h"
 
 namespace jaywalk::lms200 {

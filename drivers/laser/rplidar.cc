@@ -1,7 +1,7 @@
-#include "drivers/laser/rplidar.h"
-
 #include <algorithm>
 #include <array>
+
+#include "drivers/laser/serial_scanners.h"
 
 namespace jaywalk::rplidar {
 namespace {

@@ -5,10 +5,8 @@
 
 #include <algorithm>
 
-#include "drivers/laser/ldrobot.h"
-#include "drivers/laser/lms200.h"
-#include "drivers/laser/rplidar.h"
 #include "drivers/laser/scip.h"
+#include "drivers/laser/serial_scanners.h"
 #include "drivers/laser/sick.h"
 #include "drivers/ros/ros_scan.h"
 #include "drivers/wire/thread_without_signals.h"

@@ -1,5 +1,6 @@
 #pragma once
 // Conversation with a scanner, and what its kinds share: decoding, turns, device clock.
+
 #include <array>
 #include <cstddef>
 #include <cstdint>

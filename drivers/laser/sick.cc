@@ -10,51 +10,55 @@
 namespace jaywalk::sick {
 namespace {
 
-/// The fields of a CoLa B body: big-endian numbers of fixed size.
-class BinaryFields {
+constexpr std::uint8_t kStx = 0x02, kEtx = 0x03;
+constexpr std::array<std::uint8_t, 4> kBeginningB{kStx, kStx, kStx, kStx};
+constexpr std::size_t kHeaderB = 8;
+
+std::uint8_t xor_of(wire::Bytes bytes) noexcept {
+  std::uint8_t sum = 0;
+  for (const std::uint8_t byte : bytes) sum ^= byte;
+  return sum;
+}
+
+std::size_t position(wire::Bytes bytes, std::uint8_t wanted) noexcept {
+  return static_cast<std::size_t>(std::find(bytes.begin(), bytes.end(), wanted) - bytes.begin());
+}
+
+/// The fields of a body. CoLa B: big-endian numbers of fixed size. CoLa A: words between blanks, numbers in
+/// hexadecimal.
+class Fields {
  public:
-  explicit BinaryFields(wire::Bytes body) noexcept : reader_(body) {}
+  Fields(Cola dialect, wire::Bytes body) noexcept : is_text_(dialect == Cola::kA), reader_(body) {}
 
-  std::uint32_t u8() noexcept { return reader_.big<std::uint8_t>(); }
-  std::uint32_t u16() noexcept { return reader_.big<std::uint16_t>(); }
-  std::uint32_t u32() noexcept { return reader_.big<std::uint32_t>(); }
-  /// A channel's name has five letters.
-  std::string_view word() noexcept { return wire::text_of(reader_.take(5)); }
-  [[nodiscard]] bool ok() const noexcept { return reader_.ok(); }
-
- private:
-  wire::ByteReader reader_;
-};
-
-/// The fields of a CoLa A body: words between blanks, numbers in hexadecimal.
-class TextFields {
- public:
-  explicit TextFields(wire::Bytes body) noexcept : rest_(wire::text_of(body)) {}
-
-  std::uint32_t u8() noexcept { return number(0xFF); }
-  std::uint32_t u16() noexcept { return number(0xFFFF); }
-  std::uint32_t u32() noexcept { return number(0xFFFFFFFF); }
+  std::uint32_t u8() noexcept { return number<std::uint8_t>(); }
+  std::uint32_t u16() noexcept { return number<std::uint16_t>(); }
+  std::uint32_t u32() noexcept { return number<std::uint32_t>(); }
+  /// A channel's name, which has five letters in CoLa B.
   std::string_view word() noexcept {
-    rest_.remove_prefix(std::min(rest_.find_first_not_of(' '), rest_.size()));
-    const std::string_view found = rest_.substr(0, rest_.find(' '));
-    rest_.remove_prefix(found.size());
-    if (found.empty()) ok_ = false;
+    if (!is_text_) return wire::text_of(reader_.take(5));
+    const std::string_view rest = wire::text_of(reader_.rest());
+    const std::size_t begin = std::min(rest.find_first_not_of(' '), rest.size());
+    const std::string_view found = rest.substr(begin, rest.find(' ', begin) - begin);
+    reader_.take(begin + found.size());
+    is_malformed_ = is_malformed_ || found.empty();
     return found;
   }
-  [[nodiscard]] bool ok() const noexcept { return ok_; }
+  [[nodiscard]] bool ok() const noexcept { return reader_.ok() && !is_malformed_; }
 
  private:
-  std::uint32_t number(std::uint32_t largest) noexcept {
+  template <class T>
+  std::uint32_t number() noexcept {
+    if (!is_text_) return reader_.big<T>();
     const std::string_view digits = word();
-    std::uint32_t value = 0;
+    T value = 0;
     const auto parsed = std::from_chars(digits.data(), digits.data() + digits.size(), value, 16);
-    if (parsed.ec == std::errc{} && parsed.ptr == digits.data() + digits.size() && value <= largest) return value;
-    ok_ = false;
+    if (parsed.ec == std::errc{} && parsed.ptr == digits.data() + digits.size()) return value;
+    is_malformed_ = true;
     return 0;
   }
 
-  std::string_view rest_;
-  bool ok_ = true;
+  bool is_text_, is_malformed_ = false;
+  wire::ByteReader reader_;
 };
 
 /// How a channel's numbers become lengths and angles.
@@ -75,7 +79,6 @@ constexpr std::uint32_t kLeastCounts = 16, kBeyondCounts = 0xFFFF;
 /// Device status, as in SICK's telegram listing (8014631) and LMS5xx (8013796, 10.2).
 constexpr std::uint32_t kError = 1, kDirtWarning = 2, kDirtError = 4;
 
-template <class Fields>
 Channel read_channel(Fields& fields) noexcept {
   Channel channel;
   channel.is_distance = fields.word() == "DIST1";
@@ -94,7 +97,6 @@ bool is_plausible(const Channel& channel) noexcept {
          channel.step_rad * channel.count <= 2.0 * kPi + channel.step_rad;
 }
 
-template <class Fields>
 bool read_distances(Fields& fields, const Channel& channel, LaserScan& scan) noexcept {
   if (channel.count > kMaxBeams || !is_plausible(channel)) return false;
   scan.beam_count = channel.count;
@@ -109,7 +111,6 @@ bool read_distances(Fields& fields, const Channel& channel, LaserScan& scan) noe
 }
 
 /// The header up to the number of encoders; the scanner's frequency in hundredths of a hertz.
-template <class Fields>
 Heard read_header(Fields& fields, ScanHeader& header, std::uint32_t& frequency_centihertz) noexcept {
   fields.u16();  // version
   fields.u16();  // device number
@@ -132,7 +133,6 @@ Heard read_header(Fields& fields, ScanHeader& header, std::uint32_t& frequency_c
 }
 
 /// False where there is no channel of first distances.
-template <class Fields>
 bool read_channels(Fields& fields, LaserScan& scan) noexcept {
   const std::uint32_t encoders = fields.u16();
   if (encoders > 3) return false;
@@ -150,7 +150,6 @@ bool read_channels(Fields& fields, LaserScan& scan) noexcept {
   return false;
 }
 
-template <class Fields>
 Heard read_scan(Fields fields, const ScannerModel& model, Time arrival, LaserScan& scan, ScanHeader& header) noexcept {
   std::uint32_t frequency_centihertz = 0;
   const Heard of_header = read_header(fields, header, frequency_centihertz);
@@ -185,15 +184,77 @@ constexpr std::uint16_t kMostLost = 1000;
 
 }  // namespace
 
+std::optional<wire::Bytes> ColaStream::next_a() noexcept {
+  for (;;) {
+    skip(position(waiting(), kStx));
+    const wire::Bytes rest = waiting();
+    if (rest.empty()) return std::nullopt;
+    const std::size_t end = position(rest, kEtx);
+    // A second beginning before the end: the first telegram was cut off.
+    const std::size_t again = 1 + position(rest.subspan(1), kStx);
+    if (again < end) {
+      skip(again);
+      continue;
+    }
+    if (end == rest.size() && end <= kMaxBody) return std::nullopt;
+    if (end > kMaxBody) {
+      skip(1);
+      continue;
+    }
+    drop(end + 1);
+    return rest.subspan(1, end - 1);
+  }
+}
+
+std::optional<wire::Bytes> ColaStream::next_b() noexcept {
+  for (;;) {
+    const wire::Bytes all = waiting();
+    const auto found = std::search(all.begin(), all.end(), kBeginningB.begin(), kBeginningB.end());
+    if (found == all.end()) {
+      skip(all.size() - std::min(all.size(), kBeginningB.size() - 1));  // its last bytes may begin a beginning
+      return std::nullopt;
+    }
+    skip(static_cast<std::size_t>(found - all.begin()));
+    const wire::Bytes rest = waiting();
+    if (rest.size() < kHeaderB) return std::nullopt;
+    const std::size_t length = wire::big_endian<std::uint32_t>(rest.subspan(4));
+    if (length == 0 || length > kMaxBody) {
+      skip(1);
+      continue;
+    }
+    if (rest.size() < kHeaderB + length + 1) return std::nullopt;
+    const wire::Bytes body = rest.subspan(kHeaderB, length);
+    if (xor_of(body) != rest[kHeaderB + length]) {
+      skip(1);
+      continue;
+    }
+    drop(kHeaderB + length + 1);
+    return body;
+  }
+}
+
+ColaCommand framed(Cola dialect, std::string_view command) noexcept {
+  const bool is_text = dialect == Cola::kA;
+  const wire::Bytes body(reinterpret_cast<const std::uint8_t*>(command.data()), command.size());
+  std::array<std::uint8_t, kHeaderB> header{kStx, kStx, kStx, kStx};
+  wire::put_big_endian(static_cast<std::uint32_t>(body.size()), std::span(header).subspan(4));
+  ColaCommand out;
+  bool fits = true;
+  const auto push = [&](std::uint8_t byte) { fits = fits && out.push_back(byte); };
+  for (const std::uint8_t byte : wire::Bytes(header).first(is_text ? 1 : kHeaderB)) push(byte);
+  for (const std::uint8_t byte : body) push(byte);
+  push(is_text ? kEtx : xor_of(body));
+  if (!fits) out.clear();
+  return out;
+}
+
 Heard decode_scan(Cola dialect, wire::Bytes body, const ScannerModel& model, Time arrival, LaserScan& scan,
                   ScanHeader& header) noexcept {
   // Sent on its own (sSN) or in answer to one question (sRA).
   const std::string_view text = wire::text_of(body);
   const std::string_view kind = text.substr(0, 16);
   if (kind != "sSN LMDscandata " && kind != "sRA LMDscandata ") return Heard::kAnswer;
-  const wire::Bytes fields = body.subspan(kind.size());
-  return dialect == Cola::kA ? read_scan(TextFields(fields), model, arrival, scan, header)
-                             : read_scan(BinaryFields(fields), model, arrival, scan, header);
+  return read_scan(Fields(dialect, body.subspan(kind.size())), model, arrival, scan, header);
 }
 
 void SickProtocol::begin() noexcept {

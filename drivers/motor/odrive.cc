@@ -18,9 +18,7 @@ constexpr std::uint32_t kVelocityControl = 2, kPassThrough = 1, kVelocityRamp = 
 
 CanFrame command(std::uint8_t node, std::uint32_t number, std::uint8_t size, std::uint32_t first = 0,
                  std::uint32_t second = 0) noexcept {
-  CanFrame frame;
-  frame.id = static_cast<std::uint32_t>(node) << 5U | number;
-  frame.size = size;
+  CanFrame frame{.id = static_cast<std::uint32_t>(node) << 5U | number, .size = size};
   wire::put_little_endian(first, frame.bytes);
   wire::put_little_endian(second, std::span(frame.bytes).subspan(4));
   return frame;

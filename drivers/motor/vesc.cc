@@ -19,10 +19,7 @@ constexpr std::uint8_t kGetSettings = 17, kGetValues = 50;
 constexpr std::uint32_t kFaultCode = 1U << 15U;
 
 CanFrame command(std::uint8_t controller, std::uint32_t number, std::int32_t value) noexcept {
-  CanFrame frame;
-  frame.id = number << 8U | controller;
-  frame.extended = true;
-  frame.size = 4;
+  CanFrame frame{.id = number << 8U | controller, .extended = true, .size = 4};
   wire::put_big_endian(static_cast<std::uint32_t>(value), frame.bytes);
   return frame;
 }

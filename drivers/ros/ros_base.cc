@@ -1,7 +1,8 @@
 #include "drivers/ros/ros_base.h"
 
 #include <algorithm>
-#include <cstdio>
+
+#include "hal/shown_text.h"
 
 namespace jaywalk::ros {
 namespace {
@@ -95,14 +96,10 @@ ProofResult RosBase::continue_proof(std::size_t index) noexcept {
 
 std::string RosBase::proof_line(std::size_t index) const {
   const ShownReports& shown = shown_[index];
-  std::array<char, 300> text{};
-  std::snprintf(
-      text.data(), text.size(),
-      "%s wheel: %d nodes listen to %s, %.0f readings a second from %s, at most %.2f rad/s at commanded zero; "
-      "that the base stops by itself without commands shows only while it drives: NOT PROVED",
-      index == 0 ? "left" : "right", listened_[index], setup_.command.c_str(), shown.per_second(),
-      setup_.odometry.c_str(), shown.fastest_radps());
-  return text.data();
+  return (index == 0 ? "left wheel: " : "right wheel: ") + std::to_string(listened_[index]) + " nodes listen to " +
+         setup_.command + formatted(", %.0f readings a second from ", shown.per_second()) + setup_.odometry +
+         formatted(", at most %.2f rad/s at commanded zero", shown.fastest_radps()) +
+         "; that the base stops by itself without commands shows only while it drives: NOT PROVED";
 }
 
 std::string RosBase::proof_remedy(std::size_t index) const {

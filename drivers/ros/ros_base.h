@@ -1,5 +1,6 @@
 #pragma once
 // A ROS 2 robot as a drive base, through jaywalk_dds.
+
 #include <array>
 #include <string>
 
@@ -59,7 +60,6 @@ class RosBase final : public MotorPair {
  private:
   void take(const ReceivedFrame& received) noexcept override;
   void send_order(std::size_t index, MotorOrder order, double speed_radps) noexcept override;
-  void send_reset(std::size_t) noexcept override {}
   void begin_proof(std::size_t index) noexcept override;
   ProofResult continue_proof(std::size_t index) noexcept override;
   [[nodiscard]] std::string proof_line(std::size_t index) const override;
@@ -73,16 +73,6 @@ class RosBase final : public MotorPair {
   std::array<bool, 2> torque_on_{};
   int listeners_ = 0;
   Time zero_sent_ = kNever;
-};
-
-/// Has jaywalk_dds stop the base.
-class Stopper final : public EmergencyBrake {
- public:
-  explicit Stopper(RosBus& bus) noexcept : bus_(bus) {}
-  void brake() noexcept override { bus_.brake(); }
-
- private:
-  RosBus& bus_;
 };
 
 }  // namespace jaywalk::ros

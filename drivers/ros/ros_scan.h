@@ -15,8 +15,6 @@ class RosScanProtocol final : public ScannerProtocol {
  public:
   explicit RosScanProtocol(bool infinity_is_free) noexcept : infinity_is_free_(infinity_is_free) {}
   void begin() noexcept override { heard_ = 0; }
-  [[nodiscard]] wire::Bytes to_say(Time) noexcept override { return {}; }
-  [[nodiscard]] bool awaits_answer() const noexcept override { return false; }
   void hear(wire::Bytes bytes) noexcept override;
   [[nodiscard]] Heard next(Time arrival, LaserScan& scan) noexcept override;
   [[nodiscard]] ProtocolCounts counts() const noexcept override { return {}; }

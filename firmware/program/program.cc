@@ -1,7 +1,6 @@
 #include "firmware/program/program.h"
 
 #include <fcntl.h>
-#include <unistd.h>
 
 #include <array>
 #include <csignal>

@@ -42,8 +42,7 @@ using MakeObserver = std::function<std::unique_ptr<TickObserver>(const RunOption
 /// Throws StartupError for what keeps it from starting, an arming proof that failed among it.
 [[nodiscard]] int run_robot(RunOptions options, const MakeObserver& make_observer);
 
-/// Prints a line for each part that a run would need, with a remedy where it is not well. Nothing moves.
-/// Returns the process's exit code: 0 where all is well, else 1.
+/// Prints a line for each part that a run needs; nothing moves. Returns the exit code: 0 where all is well, else 1.
 [[nodiscard]] int check_robot(const RunOptions& options);
 
 /// Adds its commands to the command line. The chosen one runs within parse() and leaves its exit code.
@@ -53,8 +52,7 @@ using AddCommands = std::function<void(CLI::App& app, int& exit_code)>;
 /// running. Returns the process's exit code, 2 for bad input or set-up.
 [[nodiscard]] int run_program(CLI::App& app, int argc, char** argv, const AddCommands& add_commands);
 
-/// Adds run, check, goto, stop, reset and status to the command line. The chosen one runs within parse() and leaves
-/// its exit code in `exit_code`; all outlive the parsing.
+/// Adds run, check, goto, here, stop, reset and status to the command line. `exit_code` outlives the parsing.
 void add_robot_commands(CLI::App& app, int& exit_code, const MakeObserver& make_observer);
 
 /// Adds an option that takes one of the words in `choices`. `chosen` holds the default. Help and errors list the words

@@ -4,12 +4,10 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "drivers/can/can_interface.h"
 #include "drivers/wired_drive.h"
 #include "firmware/backends.h"
 #include "firmware/program/program.h"
 #include "firmware/recording/map_files.h"
-#include "firmware/robot/commissioned.h"
 #include "firmware/robot/control_socket.h"
 #include "firmware/robot/operator_desk.h"
 #include "firmware/robot/preflight.h"
@@ -39,7 +37,6 @@ class LoopReport {
     for (const TickTrace* t = loop_.traces().front(); t != nullptr; t = loop_.traces().front()) {
       runner_.report({.record = t->record,
                       .tracks = {t->tracks.begin(), t->tracks.size()},
-                      .truth = nullptr,
                       .tick_took = t->took,
                       .plan_took = t->plan_took});
       tell(t->status);

@@ -8,7 +8,7 @@
 #include "hal/shown_text.h"
 #include "hal/text_file.h"
 #include "hal/types/errors.h"
-#include "planner/localization/global_search.h"
+#include "planner/localization/place_search.h"
 #include "planner/localization/scan_matcher.h"
 #include "planner/scan/scan_points.h"
 
@@ -58,18 +58,11 @@ constexpr double kLeastShare =
 constexpr double kNearlyAsWell = 0.97;  ///< of the best place's share
 constexpr std::size_t kFewestPoints = 30;
 
-struct Box {
-  Vec2 low{1e9, 1e9}, high{-1e9, -1e9};
-};
-
-Box box_of(const sim::Raster& raster) {
-  Box box;
+Box2 box_of(const sim::Raster& raster) {
+  Box2 box;
   const double width = raster.width * raster.cell_m, height = raster.height * raster.cell_m;
-  for (const Vec2 corner : {Vec2{0.0, 0.0}, Vec2{width, 0.0}, Vec2{0.0, height}, Vec2{width, height}}) {
-    const Vec2 p = raster.map_from_raster * corner;
-    box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y)};
-    box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y)};
-  }
+  for (const Vec2 corner : {Vec2{0.0, 0.0}, Vec2{width, 0.0}, Vec2{0.0, height}, Vec2{width, height}})
+    box.hold(raster.map_from_raster * corner);
   return box;
 }
 
@@ -117,7 +110,7 @@ void save_map(const EvidenceMap& map, const std::filesystem::path& folder) {
 
 std::shared_ptr<const KnownMap> load_known_map(const std::filesystem::path& yaml, double cell_m) {
   const sim::Raster raster = sim::load_raster(yaml);
-  const Box box = box_of(raster);
+  const Box2 box = box_of(raster);
   auto map = std::make_shared<KnownMap>();
   map->cell_m = cell_m;
   map->low = {cell_of(box.low.x, cell_m), cell_of(box.low.y, cell_m)};

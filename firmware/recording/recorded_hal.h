@@ -9,8 +9,7 @@
 
 namespace jaywalk {
 
-/// Shows one TickRecord at a time; its owner moves the recording on by writing to it. The command that the
-/// controller gives is kept for comparison. Thread: the loop's.
+/// Shows one TickRecord, which its owner moves on by writing to it; keeps the controller's command for comparison.
 class RecordedHal {
  public:
   explicit RecordedHal(const TickRecord& record)

@@ -1,9 +1,5 @@
 #include "firmware/recording/recorder.h"
 
-#include <fcntl.h>
-#include <unistd.h>
-#include <zlib.h>
-
 #include <algorithm>
 #include <array>
 #include <cerrno>

@@ -1,6 +1,5 @@
 #pragma once
-// From the tick to the disk without making the tick wait: a ring of records in memory, filled by the loop's thread and
-// emptied by another, or by the main loop between ticks.
+// Recordings, and the ring in memory through which ticks reach the disk without waiting for it.
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
@@ -9,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "firmware/recording/tick_entry.h"
 #include "firmware/recording/tick_record.h"
 #include "hal/text_file.h"
 
@@ -44,14 +42,48 @@ class AppendFile {
   int error_ = 0;  ///< errno of the first failure
 };
 
+// A tick's record as bytes: the fields in the order of tick_entry.cc, little endian, without padding. A scan and a fix
+// are written only where their sequence is new; only beams in use count. What a robot of several scanners has beyond
+// that stands at the end: of one scanner there is nothing.
+
+/// Of the fields and their order; no other version is read.
+inline constexpr std::uint32_t kRecordingVersion = 7;
+
+/// Most bytes of an encoded record: every beam, mover and point of a path (two changes of 34 bits), and the rest.
+inline constexpr std::size_t kMaxEntryBytes =
+    4 * kMaxBeams * kMostScanners + 40 * kMaxObservedMovers + 10 * kMaxPathPoints + 1024;
+
+/// Turns records into bytes; remembers which scan and fix it wrote last. Never allocates or throws.
+class TickEncoder {
+ public:
+  /// Bytes written to the front of `out`, which holds kMaxEntryBytes. `lost_before`: records dropped since the last.
+  std::size_t encode(const TickRecord& record, std::uint64_t lost_before, std::span<unsigned char> out) noexcept;
+
+ private:
+  bool first_ = true;
+  std::uint32_t scan_sequence_ = 0, fix_sequence_ = 0;
+  std::array<std::uint32_t, kMostScanners - 1> others_{};  ///< sequences of the other scanners' scans
+};
+
+/// Turns bytes back into records; keeps the last scan and fix for those that bring none.
+class TickDecoder {
+ public:
+  /// False when the bytes are no record: too few, too many, or a value out of its range.
+  [[nodiscard]] bool decode(std::span<const unsigned char> in, TickRecord& record, std::uint64_t& lost_before) noexcept;
+
+ private:
+  LaserScan scan_;
+  OfOthers<LaserScan> others_;
+  OutsideFix fix_;
+};
+
 // A recording on disk (recording.jwr), little endian:
 //
 //   "JAYWALK\n"  u32 version  u32 setup bytes  setup text  u32 CRC of all that came before
-//   then for each tick      u32 length  u32 ~length  u32 CRC of the bytes  bytes (tick_entry.h)
+//   then for each tick      u32 length  u32 ~length  u32 CRC of the bytes  bytes of the record
 //   and at the proper end   u32 0       u32 ~0       u32 number of entries, modulo 2^32
 //
-// CRC: the one of zlib and PNG. A file without its end was cut short (power lost, disk full); what stands before the
-// cut is good.
+// CRC: the one of zlib and PNG. A file without its end was cut short (power, disk); what stands before that is good.
 
 inline constexpr std::size_t kMaxSetupBytes = 16U << 20U;
 
@@ -62,8 +94,7 @@ inline constexpr std::size_t kMaxSetupBytes = 16U << 20U;
 /// first entry on that it did not take whole. Only the constructor allocates.
 class RecordingWriter {
  public:
-  /// `setup`: what it takes to build the same controller again, in the caller's own words; at most
-  /// kMaxSetupBytes. Throws StartupError when the file cannot be made.
+  /// `setup`: the ControlSetup as text, at most kMaxSetupBytes. Throws StartupError when the file cannot be made.
   RecordingWriter(const std::string& file, const std::string& setup);
   /// Writes the end mark.
   ~RecordingWriter() { close(); }
@@ -95,8 +126,7 @@ class RecordingWriter {
 /// Reads a recording, packed with gzip or not, a record at a time. Bytes in messages are those of the unpacked one.
 class RecordingReader {
  public:
-  /// Throws StartupError "FILE: byte N: cause" for what is no recording, another version's, or damaged.
-  /// `part`: where in the file the recording stands.
+  /// Throws StartupError "FILE: byte N: cause" for no recording, another version's, or a damaged one in that `part`.
   explicit RecordingReader(const std::string& file, FilePart part = {});
 
   [[nodiscard]] const std::string& setup() const { return setup_; }
@@ -130,7 +160,7 @@ class RecordingReader {
   std::string warning_;
 };
 
-/// Hands every T from one writing thread to one reading thread, in order; neither ever waits. Memory is taken in the
+/// Hands every T from one writing thread to one reading thread, in order; neither ever waits, nor allocates after the
 /// constructor. A full ring takes no more, and the writer is told.
 template <class T, std::size_t N = 0>
 class Ring {
@@ -178,8 +208,8 @@ class Recorder {
   /// Loop's thread: the record that begin() gave is complete.
   void commit() noexcept;
 
-  /// Draining thread: writes out what has been committed. False when the disk takes no more; the
-  /// ring is emptied all the same, so that ticks are lost and counted rather than held up.
+  /// Draining thread: writes out what has been committed. False when the disk takes no more; the ring is emptied
+  /// anyway.
   bool drain() noexcept;
   /// Draining thread, after the last tick: drains and ends the file. False when the disk lost anything.
   bool close() noexcept;
@@ -195,8 +225,7 @@ class Recorder {
 
   /// What the disk did not take of the recording; empty: it has taken all. Draining thread.
   [[nodiscard]] std::string complaint() const { return lost_.empty() && writer_ ? writer_->complaint() : lost_; }
-  /// The disk takes no more of the recording, or of the tables beside it; or the draining thread has hung for so long
-  /// that the ring is full. Loop's thread.
+  /// The disk takes no more of recording or tables, or the draining thread hangs: the ring is full. Loop's thread.
   [[nodiscard]] bool is_losing() const noexcept { return losing_.load(std::memory_order_relaxed) || !begun_in_ring_; }
   void note_loss() noexcept { losing_.store(true, std::memory_order_relaxed); }
 

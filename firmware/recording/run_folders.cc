@@ -1,6 +1,5 @@
 #include "firmware/recording/run_folders.h"
 
-#include <fcntl.h>
 #include <sys/file.h>
 
 #include <algorithm>
@@ -29,16 +28,28 @@ std::uintmax_t bytes_in(const std::filesystem::path& folder) {
   return bytes;
 }
 
+/// Folders right below `all` for which `counts` is true.
+template <class Counts>
+std::vector<std::filesystem::path> folders_in(const std::filesystem::path& all, const Counts& counts) {
+  std::vector<std::filesystem::path> found;
+  std::error_code ignored;
+  for (const auto& entry : std::filesystem::directory_iterator(all, ignored))
+    if (entry.is_directory(ignored) && counts(entry.path())) found.push_back(entry.path());
+  return found;
+}
+
 /// Oldest first: their names are their times.
 std::vector<std::filesystem::path> past_runs(const std::filesystem::path& all) {
   static const std::regex kName(R"(\d{4}-\d\d-\d\dT\d\d-\d\d-\d\dZ(-\d+)?)");
-  std::vector<std::filesystem::path> runs;
-  std::error_code ignored;
-  for (const auto& entry : std::filesystem::directory_iterator(all, ignored))
-    if (entry.is_directory(ignored) && std::regex_match(entry.path().filename().string(), kName))
-      runs.push_back(entry.path());
+  auto runs = folders_in(all, [](const auto& path) { return std::regex_match(path.filename().string(), kName); });
   std::sort(runs.begin(), runs.end());
   return runs;
+}
+
+void make_folder(const std::filesystem::path& folder, const std::string& remedy) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) throw StartupError(folder.string() + ": " + error.message(), remedy);
 }
 
 /// Of `runs`, oldest first, how many of the newest may stay beside a new one.
@@ -66,10 +77,7 @@ std::filesystem::path part(const std::filesystem::path& run, int number) {
 
 /// Oldest first.
 std::vector<std::filesystem::path> all_parts(const std::filesystem::path& run) {
-  std::vector<std::filesystem::path> parts;
-  std::error_code ignored;
-  for (const auto& entry : std::filesystem::directory_iterator(run, ignored))
-    if (entry.is_directory(ignored) && part_number(entry.path()) > 0) parts.push_back(entry.path());
+  auto parts = folders_in(run, [](const auto& path) { return part_number(path) > 0; });
   std::sort(parts.begin(), parts.end(), [](const auto& a, const auto& b) { return part_number(a) < part_number(b); });
   return parts;
 }
@@ -125,9 +133,7 @@ void RunFolder::keep(const RunsKept& kept) noexcept {
 }
 
 OutFolder::OutFolder(const std::filesystem::path& path) : path_(path) {
-  std::error_code error;
-  std::filesystem::create_directories(path, error);
-  if (error) throw StartupError(path.string() + ": " + error.message(), "give --out a folder that can be written");
+  make_folder(path, "give --out a folder that can be written");
   held_ = wire::FileDescriptor(::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   const bool is_locked = held_.get() >= 0 && ::flock(held_.get(), LOCK_EX | LOCK_NB) != 0;
   if (is_locked && errno == EWOULDBLOCK)  // not every disk has locks
@@ -190,9 +196,7 @@ bool RunParts::is_full(std::uintmax_t bytes) const noexcept { return any() && by
 void RunParts::next() {
   remove_whole(part(run_, number_ + 1 - kept_.parts));
   const std::filesystem::path made = part(run_, number_ + 1);
-  std::error_code error;
-  std::filesystem::create_directories(made, error);
-  if (error) throw StartupError(made.string() + ": " + error.message(), "give a folder that can be written");
+  make_folder(made, "give a folder that can be written");
   place_ = made;
   ++number_;
 }

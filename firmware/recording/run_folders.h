@@ -20,8 +20,7 @@ struct RunsKept {
 };
 
 /// The folder of a run below a folder for all of them, named after its start: "2026-11-24T20-15-00Z", with "-2" and so
-/// on where that is there. A start that fails leaves no folder, so that a robot which is started again and again
-/// without its scanner does not push the recordings of real runs out.
+/// on where that is there. A start that fails leaves none: it would push the recordings of real runs out.
 class RunFolder {
  public:
   /// Throws StartupError where it cannot be made.
@@ -41,8 +40,7 @@ class RunFolder {
   bool kept_ = false;
 };
 
-/// The folder in which a run leaves its files, held against any other run for as long as this lives: their tables would
-/// be one another's.
+/// The folder in which a run leaves its files, held against any other run for as long as this lives.
 class OutFolder {
  public:
   /// Makes it where it is missing. Throws StartupError where it cannot be made, or another run writes there.
@@ -80,8 +78,7 @@ inline constexpr std::uintmax_t kLeastPartBytes = 200'000;
 class RunParts {
  public:
   /// Removes from `run` what another run left there and this one will not write over: its parts, or its files where
-  /// this one has parts. With parts, makes the first. Throws StartupError, for a folder too that is called like a part
-  /// and is none.
+  /// this one has parts. Makes the first part. Throws StartupError, also for a folder called like a part that is none.
   RunParts(std::filesystem::path run, const PartsKept& kept);
 
   /// A folder: that of the part, or the run's own.
@@ -100,8 +97,7 @@ class RunParts {
   int number_ = 1;
 };
 
-/// The parts that are left of a run, oldest first and none missing between: what lies before a gap does not count.
-/// Empty for a run without parts.
+/// The parts that are left of a run after the last gap, oldest first. Empty for a run without parts.
 [[nodiscard]] std::vector<std::filesystem::path> parts_of(const std::filesystem::path& run);
 /// Not there, or without a byte: so a file of the last part may be where the run was killed as it began.
 [[nodiscard]] bool has_nothing(const std::filesystem::path& file);

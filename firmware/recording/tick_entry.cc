@@ -1,5 +1,3 @@
-#include "firmware/recording/tick_entry.h"
-
 #include <algorithm>
 #include <bit>
 #include <concepts>
@@ -7,13 +5,13 @@
 #include <type_traits>
 
 #include "drivers/wire/byte_reader.h"
+#include "firmware/recording/recorder.h"
 
 namespace jaywalk {
 namespace {
 
-// One list of fields serves both directions: Put takes const references and writes, Get takes
-// references and reads, so that writer and reader cannot drift apart. Values are little-endian bytes, whatever the
-// machine; floating point as its bits, NaN payloads and all.
+// One list of fields serves both directions, Put and Get, so that writer and reader cannot drift apart. Values are
+// little-endian bytes, floating point as its bits, NaN payloads and all.
 
 /// What does not fit into the bytes is left out.
 class Put {

@@ -1,6 +1,5 @@
 #pragma once
-// All that crossed the HAL in one tick and what was made of it: the tick's only local state, and enough to live through
-// the tick again.
+// The tick's only local state: enough to live through the tick again.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -18,9 +17,7 @@
 
 namespace jaywalk {
 
-// A plan's path as recordings and messages have it: in whole millimetres.
-
-/// A place in the map, mm; within +-2,147 km.
+/// A place in the map as recordings and messages have it, mm; within +-2,147 km.
 struct PointMm {
   std::int32_t x = 0, y = 0;
   bool operator==(const PointMm&) const = default;

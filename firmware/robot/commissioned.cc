@@ -1,8 +1,4 @@
-#include "firmware/robot/commissioned.h"
-
 #include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -15,6 +11,7 @@
 #include <string_view>
 
 #include "firmware/recording/run_folders.h"
+#include "firmware/robot/preflight.h"
 #include "hal/shown_text.h"
 #include "hal/types/errors.h"
 

@@ -6,7 +6,6 @@
 #include <sys/stat.h>
 #include <sys/time.h>
 #include <sys/un.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -115,14 +114,6 @@ wire::FileDescriptor listening_at(const std::filesystem::path& path) {
       ::chmod(address.sun_path, S_IRUSR | S_IWUSR | S_IRGRP | S_IWGRP) != 0 || ::listen(made.get(), kBacklog) != 0)
     throw StartupError(path.string() + ": " + std::strerror(errno), "give control_socket a name that can be made");
   return made;
-}
-
-void say(int socket, std::string_view text) {
-  while (!text.empty()) {
-    const ssize_t sent = ::send(socket, text.data(), text.size(), MSG_NOSIGNAL);
-    if (sent <= 0) return;
-    text.remove_prefix(static_cast<std::size_t>(sent));
-  }
 }
 
 }  // namespace
@@ -300,7 +291,8 @@ std::string ask(const std::filesystem::path& path, const std::string& line) {
     throw StartupError(path.string() + ": no run listens there: " + std::strerror(errno),
                        "start one with jaywalk run, or name its socket with --socket");
   }
-  say(run.get(), line + "\n");
+  const std::string order = line + "\n";
+  static_cast<void>(::send(run.get(), order.data(), order.size(), MSG_NOSIGNAL));
   std::string answer;
   std::array<char, 1024> part{};
   for (ssize_t got = 0; (got = ::recv(run.get(), part.data(), part.size(), 0)) > 0;)

@@ -27,14 +27,11 @@ namespace jaywalk {
 
 enum class StopWords : std::uint8_t { kNone, kStop, kStopNow };
 
-/// Returns the strongest stop in any line of `text`.
-///
-/// A line is a stop where its first letters are "stop" or "halt", in either case, whatever stands before and after
-/// them. "emergency", "estop" and "e-stop", and "now" in the line, stop at once.
+/// Returns the strongest stop in any line of `text`: its first letters are "stop" or "halt", in either case, whatever
+/// stands before and after them. "emergency", "estop" and "e-stop", and "now" in the line, stop at once.
 [[nodiscard]] StopWords stop_in(std::string_view text) noexcept;
 
-/// What a line is answered. What takes longer than a moment is a job: it runs in a thread of its own, and its return
-/// value is the answer.
+/// Answer to a line, or a job that takes longer: it runs in a thread of its own, and returns the answer.
 struct ControlReply {
   ControlReply(std::string answer) : text(std::move(answer)) {}  // NOLINT: an answer in words is a reply
   ControlReply(const char* answer) : text(answer) {}             // NOLINT: the same
@@ -82,8 +79,7 @@ class ControlClients {
 
   void accept_new(int listener, Time now);
   [[nodiscard]] wire::FileDescriptor accepted(int listener);
-  /// Drops the oldest client of the process that has most; one that is done first of all. False: none can
-  /// be spared.
+  /// Drops a client that is done, or the oldest of the process that has most. False: none can be spared.
   bool make_room();
   void read(Client& client);
   void end_line(Client& client, bool whole);
@@ -101,15 +97,13 @@ class ControlClients {
 /// $JAYWALK_SOCKET, else jaywalk.sock in $XDG_RUNTIME_DIR, else in the folder for temporary files.
 [[nodiscard]] std::filesystem::path default_control_socket();
 
-/// Listens in a thread of its own and serves all clients there, a round of them every 5 ms at most: a flood of clients
-/// takes a bounded share of a processor, and a stop is read within two rounds (SAFETY: within 100 ms). Owner and group
-/// may talk.
+/// Serves all clients in a thread of its own, a round of them every 5 ms at most: a flood takes a bounded share of a
+/// processor, and a stop is read within two rounds (SAFETY: within 100 ms). Owner and group may talk.
 class ControlSocket {
  public:
   using Answer = ControlClients::Answer;
 
-  /// `priority`: the thread's, of SCHED_FIFO; 0: an ordinary one. Throws StartupError where another run listens there,
-  /// or nobody can.
+  /// `priority`: the thread's (SCHED_FIFO; 0: ordinary). Throws StartupError where another run listens, or none can.
   ControlSocket(std::filesystem::path path, Answer answer, int priority = 0);
   ~ControlSocket();
 

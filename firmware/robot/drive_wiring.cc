@@ -19,14 +19,6 @@ constexpr std::uint16_t kArcosPort = 8101;
 constexpr std::uint32_t kArcosBaud = 9600;
 constexpr double kArcosCycle_s = 0.1;
 
-/// Of the left drive and the right one.
-std::array<std::uint8_t, 2> read_nodes(TomlTable& table) {
-  const std::array nodes{static_cast<std::uint8_t>(table.integer("left_node")),
-                         static_cast<std::uint8_t>(table.integer("right_node"))};
-  require_distinct(table, {{"left_node", nodes[0]}, {"right_node", nodes[1]}});
-  return nodes;
-}
-
 /// Wheel acceleration (m/s2 at the rim) as counts/s2.
 std::uint32_t ramp(double mps2, const DriveModel& model, double counts_per_rad) {
   constexpr double kMost = 4294967295.0;
@@ -62,8 +54,7 @@ StopLimits stop_limits_of(const RobotModel& model, Duration tick) {
   return stop_limits(model.limits.brake_mps2 / radius_m, kTolerance_mps / radius_m, tick, model.drive.times);
 }
 
-/// Makes the shortest timeout, `least`, two of the loop's periods at least. Refuses a loop of which these take longer
-/// than the longest that a drive of this kind may have.
+/// Raises `least`, the shortest timeout, to two of the loop's periods; refuses a loop of which those exceed `most`.
 void outlast_two_ticks(TomlTable& table, Duration tick, Duration most, const std::string& what, Duration& least) {
   least = std::max(least, 2 * tick);
   if (2 * tick <= most) return;
@@ -71,6 +62,17 @@ void outlast_two_ticks(TomlTable& table, Duration tick, Duration most, const std
                "needs " + what + " of at most " + std::to_string(most / std::chrono::milliseconds(1)) +
                    " ms, less than two of the loop's periods",
                "raise rate_hz");
+}
+
+/// Two motor controllers, one a wheel.
+template <typename Base>
+void read_axes(TomlTable& table, const std::string& key, const DriveModel& model, const StopLimits& stop, Base& base) {
+  const auto scales = read_scales(table, key, model);
+  require_distinct(table, {"left_node", "right_node"});
+  base.axes = {CanAxis{static_cast<std::uint8_t>(table.integer("left_node")), scales[0]},
+               CanAxis{static_cast<std::uint8_t>(table.integer("right_node")), scales[1]}};
+  base.allow_unproved = table.boolean("allow_unproved");
+  base.stop = stop;
 }
 
 canopen::DriveBaseSetup read_cia402(TomlTable& table, const RobotModel& model, Duration tick, const StopLimits& stop) {
@@ -83,34 +85,19 @@ canopen::DriveBaseSetup read_cia402(TomlTable& table, const RobotModel& model, D
                  "raise it, or rate_hz");
   }
   base.silence_limit = 3 * std::chrono::milliseconds(settings.heartbeat_ms);
-  base.stop = stop;
-  base.allow_unproved = table.boolean("allow_unproved");
-  const auto scales = read_scales(table, "counts_per_wheel_turn", model.drive);
-  const auto nodes = read_nodes(table);
-  require_distinct(table,
-                   {{"left_node", nodes[0]}, {"right_node", nodes[1]}, {"controller_node", settings.controller_node}});
-  base.axes = {CanAxis{nodes[0], scales[0]}, CanAxis{nodes[1], scales[1]}};
+  read_axes(table, "counts_per_wheel_turn", model.drive, stop, base);
+  require_distinct(table, {"left_node", "right_node", "controller_node"});
   settings.acceleration = settings.deceleration = settings.quick_stop =
-      ramp(kRampOverBrake * model.limits.brake_mps2, model.drive, std::fabs(scales[0]));
+      ramp(kRampOverBrake * model.limits.brake_mps2, model.drive, std::fabs(base.axes[0].per_rad));
   return base;
-}
-
-/// Two motor controllers, one a wheel.
-template <typename Base>
-void read_axes(TomlTable& table, const std::string& key, const DriveModel& model, const StopLimits& stop, Base& base) {
-  const auto scales = read_scales(table, key, model);
-  const auto nodes = read_nodes(table);
-  for (std::size_t k = 0; k < nodes.size(); ++k) base.axes[k] = {nodes[k], scales[k]};
-  base.allow_unproved = table.boolean("allow_unproved");
-  base.stop = stop;
 }
 
 double seconds_of(TomlTable& table, const char* key, double otherwise_s) {
   return 1e-3 * table.number(key, 1e3 * otherwise_s);
 }
 
-/// A CANopen drive answers the loop's SYNC, and ODrive and VESC report by themselves at 50 Hz or more; of a ROS 2 base
-/// and a Pioneer the file says how often they do.
+/// CANopen drives answer the loop's SYNC, ODrive and VESC report at 50 Hz or more, the others as often as the file
+/// says.
 DriveTimes read_times(TomlTable& table, DriveKind kind, Duration tick) {
   DriveTimes times;
   times.response_s = seconds_of(table, "response_ms", times.response_s);

@@ -23,8 +23,7 @@ struct ByteWiring {
   std::uint32_t baud = 0;
 };
 
-/// Reads host and port, or device and baud; a maker's port or baud of 0: none of its devices has that. `what`:
-/// "scanner". Throws StartupError.
+/// Reads host and port, or device and baud of a `what` ("scanner"); the maker's 0: none has that. Throws StartupError.
 [[nodiscard]] ByteWiring read_byte_wiring(TomlTable& table, const std::string& what, std::uint16_t makers_port,
                                           std::uint32_t makers_baud);
 
@@ -51,9 +50,8 @@ struct DriveWiring {
   [[nodiscard]] std::array<CanAxis, 2> axes() const noexcept;
 };
 
-/// Reads the table to its end; a track width of its own goes into the model. Throws StartupError "FILE:LINE: cause;
-/// remedy" for anything wrong or unknown. `tick`: the loop's period, two of which every drive's timeout outlasts, or
-/// one late tick would trip it.
+/// Reads the table to its end; a track width of its own goes into the model. `tick`: the loop's period, two of which
+/// every drive's timeout outlasts, or one late tick would trip it. Throws StartupError.
 [[nodiscard]] DriveWiring read_drive(TomlTable table, RobotModel& model, Duration tick);
 
 }  // namespace jaywalk

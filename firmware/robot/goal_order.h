@@ -30,12 +30,10 @@ struct NamedPlace {
 /// Goals one after the other; at most 16, as many as a person gives in one line.
 using Route = FixedVector<GoalOrder, 16>;
 
-/// Whether a word may be a place's name and is no number: names begin with a letter. Only names make a route; one name
-/// among numbers is a number mistyped.
+/// Whether a word may be a place's name: it begins with a letter. A name among numbers is a number mistyped.
 [[nodiscard]] bool is_place_name(std::string_view word);
 
-/// From "X Y", "X Y HEADING", or names of `places` in the order to go there, separated by spaces. Throws StartupError
-/// "goto: cause; remedy" for anything else. Not for the loop.
+/// From words of read_goal_order(), or names of `places` in the order to go there. Throws likewise. Not for the loop.
 [[nodiscard]] Route read_route(std::string_view words, std::span<const NamedPlace> places);
 
 /// Its words: read_goal_order() gives the same order.
@@ -43,9 +41,8 @@ using Route = FixedVector<GoalOrder, 16>;
 
 /// List of the goals that clients asked for lately: repeating a goal gives one order, and a stop voids that order.
 ///
-/// A script or a bridge may send its goal again and again, stop or no stop. A goal that came twice within kSame_s is
-/// repeated; after a stop it is void until it has not come for kSame_s. A goal that came once may be a person's and
-/// counts again after a stop. Not for the loop's thread.
+/// A goal that came twice within kSame_s is repeated, by a script or a bridge say; after a stop it is void until it has
+/// not come for kSame_s. One that came once may be a person's and counts again. Not for the loop's thread.
 class SaidGoals {
  public:
   /// Longest time between two repetitions, s: five times the usual second.

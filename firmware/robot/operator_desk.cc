@@ -98,8 +98,9 @@ std::string OperatorDesk::take_stop(bool now) {
 }
 
 void OperatorDesk::wish(const Orders& orders) {
-  ++wish_.number;
+  const std::uint32_t number = wish_.orders.number + 1;
   wish_.orders = orders;
+  wish_.orders.number = number;
   wishes_.publish(wish_);
 }
 
@@ -145,7 +146,8 @@ ControlReply OperatorDesk::take_place(std::string_view words) {
   wish({.under = status.revoked,
         .here = Pose2{place.position_in_map.x, place.position_in_map.y, place.heading_rad},
         .forced = forced});
-  return ControlReply([this, order = wish_.number, under = status.revoked] { return answer_to_place(order, under); });
+  return ControlReply(
+      [this, order = wish_.orders.number, under = status.revoked] { return answer_to_place(order, under); });
 }
 
 RunStatus OperatorDesk::await(Duration longest, const std::function<bool(const RunStatus&)>& holds) {
@@ -209,7 +211,7 @@ void OperatorDesk::close() {
 
 OperatorInput OperatorDesk::latest() noexcept {
   const Wish& wish = wishes_.latest();
-  const bool is_new = wish.number != seen_.number;
+  const bool is_new = wish.orders.number != seen_.orders.number;
   input_.stamp = clock_.now();
   input_.goal_tolerance_m = rules_.tolerance_m;
   input_.goal_heading_tolerance_rad = rules_.heading_tolerance_rad;
@@ -219,7 +221,7 @@ OperatorInput OperatorDesk::latest() noexcept {
   const bool given = is_new && permission_.give(wish.orders);
   input_.reset = given && wish.orders.reset;
   if (given && wish.orders.here) {
-    to_check_ = {wish.number, *wish.orders.here, wish.orders.forced};
+    to_check_ = wish.orders;
     told_under_ = wish.orders.under;
   }
   told_place_.step(input_.stamp);

@@ -32,9 +32,8 @@ struct GoalRules {
 /// Operator panel that turns orders from the control socket into the loop's input, and the loop's status into answers.
 /// Of a route it gives the loop one goal after the other, the next when one is reached.
 ///
-/// A stop is obeyed to rest, and no goal is taken before. A stop and a fault that is latched drop the goal
-/// (Permission): it must be given anew, which a client that goes on repeating it does not (SaidGoals). A goal that was
-/// reached is dropped too, and so is one when a person takes the stick.
+/// A stop is obeyed to rest, and no goal is taken before. It drops the goal, as a latched fault, the stick and reaching
+/// it do (Permission): it must be given anew, which a client that goes on repeating it does not (SaidGoals).
 class OperatorDesk final : public OperatorPanel {
  public:
   /// Brings the drives' bus back from bus-off; what went wrong, or empty. Called in the asker's thread, may wait.
@@ -43,8 +42,8 @@ class OperatorDesk final : public OperatorPanel {
   OperatorDesk(Clock& clock, GoalRules rules, RestartBus restart_bus)
       : clock_(clock), rules_(std::move(rules)), restart_bus_(std::move(restart_bus)) {}
 
-  /// Any thread: obeys one line (control_socket.h) at once. A reset at bus-off waits for the bus: that is the reply's
-  /// job, to be run in a thread that may wait; it holds up no other line.
+  /// Any thread: obeys one line (control_socket.h) at once. What waits, for the bus or a place's check, is the reply's
+  /// job, to be run in a thread that may wait.
   [[nodiscard]] ControlReply reply_to(std::string_view line);
   /// The same to the end: waits where reply_to() leaves a job.
   [[nodiscard]] std::string obey(std::string_view line);
@@ -56,7 +55,7 @@ class OperatorDesk final : public OperatorPanel {
   /// Loop's thread: what is permitted.
   [[nodiscard]] Permission& permission() noexcept { return permission_; }
   /// Loop's thread: a told place, to be held against the map; and the answer.
-  [[nodiscard]] std::optional<ToldPlaceOrder> place_to_check() noexcept { return std::exchange(to_check_, {}); }
+  [[nodiscard]] std::optional<Orders> place_to_check() noexcept { return std::exchange(to_check_, {}); }
   void answer_place(const PlaceAnswer& answer) noexcept {
     if (answer.is_taken() && permission_.revoked() == told_under_) told_place_.tell(answer.map_from_robot);
   }
@@ -67,7 +66,6 @@ class OperatorDesk final : public OperatorPanel {
 
  private:
   struct Wish {
-    std::uint32_t number = 0;  ///< of what was asked for
     std::uint32_t stops = 0;
     std::uint32_t emergencies = 0;
     Orders orders{};  ///< the newest
@@ -109,17 +107,14 @@ class OperatorDesk final : public OperatorPanel {
   Wish seen_;  ///< the loop's
   Permission permission_;
   ToldPlace told_place_;
-  std::optional<ToldPlaceOrder> to_check_;
+  std::optional<Orders> to_check_;
   std::uint32_t told_under_ = 0;  ///< revocations when it was given
   OperatorInput input_;
 };
 
-/// An operator panel in front of another: its reset reaches the loop only once the drives may turn again, and its stick
-/// as far as it is permitted (Permission::admitted()).
-///
-/// A person's reset edge, at rest, resets the drives. Where they were in trouble that begins their whole proof (SAFETY
-/// 15), and the loop stays latched until both have passed it. A stop, a fault and another order meanwhile void the
-/// reset (Permission). Thread: the loop's.
+/// An operator panel in front of another: its stick counts as far as it is permitted (Permission::admitted()), and its
+/// reset edge, at rest, resets the drives. Where they were in trouble that begins their whole proof (SAFETY 15), and
+/// the reset reaches the loop once both have passed it, unless a stop, fault or order voids it. Thread: the loop's.
 class ResetGate final : public OperatorPanel {
  public:
   /// All outlive it.
@@ -145,8 +140,7 @@ class OperatorControls {
   /// `drive` and `clock` outlive it.
   OperatorControls(const RobotFile& file, WiredDrive& drive, Clock& clock, OperatorDesk::RestartBus restart_bus);
 
-  /// Start-up only: looks at the joystick once and starts its thread, with a priority of SCHED_FIFO (0: an ordinary
-  /// one). Throws StartupError where its dead man could stay held when its link has died.
+  /// Start-up only: starts the joystick's thread (priority of SCHED_FIFO; 0: ordinary). Throws as refuse_unrenewed().
   void start(int priority);
   /// What the thread does: by hand where none was started.
   void step() noexcept {

@@ -25,8 +25,7 @@ std::string words_of(const PlaceAnswer& answer) {
          (answer.has_better ? "it fits at " + better : "look again where the robot is") + ", " + forced;
 }
 
-bool PlaceCheck::step(const std::optional<ToldPlaceOrder>& told, const TickRecord& t,
-                      const EvidenceMap& still) noexcept {
+bool PlaceCheck::step(const std::optional<Orders>& told, const TickRecord& t, const EvidenceMap& still) noexcept {
   if (told) {
     order_ = *told;
     search_.give_up();
@@ -55,10 +54,10 @@ bool PlaceCheck::look(const TickRecord& t, const EvidenceMap& still) noexcept {
   const auto matched = [&](const Pose2& near) {
     return PlaceSearch::matched(sample_, still, near, ToldPlace::kEye_m, ToldPlace::kEye_rad);
   };
-  there_ = matched(order_.map_from_robot);
+  there_ = matched(*order_.here);
   other_ = matched(t.pose.map_from_robot);
   if (there_.says_nothing()) return end(other_.is_good() ? PlaceAnswer::Why::kElsewhere : PlaceAnswer::Why::kUnknown);
-  search_.begin(sample_, order_.map_from_robot.position());
+  search_.begin(sample_, order_.here->position());
   return false;
 }
 
@@ -73,7 +72,7 @@ bool PlaceCheck::end(PlaceAnswer::Why why) noexcept {
   const bool matched = why != PlaceAnswer::Why::kUnknown && why != PlaceAnswer::Why::kForced;
   answer_ = {.number = order_.number,
              .why = why,
-             .map_from_robot = matched ? there_.map_from_robot : order_.map_from_robot,
+             .map_from_robot = matched ? there_.map_from_robot : *order_.here,
              .fit = there_.fit(),
              .has_better = other_.is_good(),
              .better = other_.map_from_robot};

@@ -43,14 +43,17 @@ class ToldPlace final : public PoseSource {
   int left_ = 0;
 };
 
-/// A person's word on where the robot is.
-struct ToldPlaceOrder {
-  std::uint32_t number = 0;  ///< of the order
-  Pose2 map_from_robot;
-  bool forced = false;  ///< taken without a match
+/// What a person asks for in one breath.
+struct Orders {
+  std::uint32_t under = 0;  ///< revocations that the asker had been told of (Permission::revoked())
+  Route route{};            ///< empty: nowhere to go
+  bool reset = false;
+  std::optional<Pose2> here{};  ///< where the robot is, in the map
+  bool forced = false;          ///< taken without a match
+  std::uint32_t number = 0;     ///< counted from 1
 };
 
-/// Answer to a ToldPlaceOrder.
+/// Answer to a place that was told.
 struct PlaceAnswer {
   enum class Why : std::uint8_t {
     kFits,       ///< taken, where the scan matches the map
@@ -79,9 +82,8 @@ class PlaceCheck {
  public:
   explicit PlaceCheck(const RobotModel& model) : model_(model) {}
 
-  /// After each tick; `told`: an order to check from now on. True when the answer is there.
-  [[nodiscard]] bool step(const std::optional<ToldPlaceOrder>& told, const TickRecord& t,
-                          const EvidenceMap& still) noexcept;
+  /// After each tick; `told`: a place to check from now on. True when the answer is there.
+  [[nodiscard]] bool step(const std::optional<Orders>& told, const TickRecord& t, const EvidenceMap& still) noexcept;
   [[nodiscard]] const PlaceAnswer& answer() const noexcept { return answer_; }
 
  private:
@@ -91,7 +93,7 @@ class PlaceCheck {
   bool end(PlaceAnswer::Why why) noexcept;
 
   RobotModel model_;
-  ToldPlaceOrder order_;
+  Orders order_;
   ScanProjection projection_;
   ScanPoints points_;
   SeenSample sample_;
@@ -101,21 +103,9 @@ class PlaceCheck {
   PlaceAnswer answer_;
 };
 
-/// What a person asks for in one breath.
-struct Orders {
-  std::uint32_t under = 0;  ///< revocations that the asker had been told of (Permission::revoked())
-  Route route{};            ///< empty: nowhere to go
-  bool reset = false;
-  std::optional<Pose2> here{};  ///< where the robot is, in the map
-  bool forced = false;          ///< taken without a match
-};
-
-/// Orders in force and those that wait for their moment: one struct that every order, stop, fault and latch assigns
-/// anew, so that nothing given before them is left. A stop is obeyed to rest: until then nothing is given, and a stick
-/// counts from its middle on.
-///
-/// Orders come from other threads, which know the loop as it was a moment ago: those given before the last revocation
-/// are void, too. Thread: the loop's; never allocates, never waits.
+/// Orders in force and those that wait: one struct that every order, stop, fault and latch assigns anew, so that
+/// nothing given before is left. A stop is obeyed to rest: until then nothing is given, and a stick counts from its
+/// middle on. Orders given, in other threads, before the last revocation are void. Thread: the loop's.
 class Permission {
  public:
   /// Takes the place of all that was given before, a reset that waits among it. False: void, and nothing is given.

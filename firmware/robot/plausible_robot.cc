@@ -104,25 +104,19 @@ std::unique_ptr<LaserScan> free_scan(const LaserModel& laser) {
   return scan;
 }
 
-/// Of the ground that the body drives over straight ahead until it stands from its fastest, the share that no laser
-/// ever looks at.
+/// Share of the ground straight ahead, as far as the robot's longest stop, that no laser ever looks at.
 double unwatched_ahead(const RobotFile& robot) {
   constexpr double kStep_m = 0.04;
   const RobotModel& model = robot.setup.model;
   std::vector<BlindGaps> gaps;
-  std::vector<Pose2> mounts;
-  for (const LaserModel& laser : model.lasers()) {
-    mounts.push_back(laser.robot_from_laser);
-    gaps.emplace_back(laser).update(*free_scan(laser));
-  }
-  const Lookout lookout{OfEach<Pose2>(std::span<const Pose2>(mounts))};
+  for (const LaserModel& laser : model.lasers()) gaps.emplace_back(laser).update(*free_scan(laser));
   const OfEach<BlindGaps> seen{std::span<const BlindGaps>(gaps)};
   const double from_m = model.footprint.front_m + StopZoneConfig{}.margin_m;
   const double to_m = from_m + std::max(longest_stop_m(model, robot.setup.tick()), 0.5);
   double unwatched = 0.0, all = 0.0;
   for (double x = from_m; x <= to_m; x += kStep_m) {
     for (double y = -model.footprint.half_width_m; y <= model.footprint.half_width_m; y += kStep_m) {
-      unwatched += lookout.at(seen, {x, y}) == Coverage::kUnwatched ? 1.0 : 0.0;
+      unwatched += coverage_at(seen, {x, y}) == Coverage::kUnwatched ? 1.0 : 0.0;
       all += 1.0;
     }
   }

@@ -9,7 +9,6 @@
 #include <fstream>
 #include <thread>
 
-#include "drivers/can/can_interface.h"
 #include "drivers/panel/joystick.h"
 #include "firmware/backends.h"
 #include "firmware/robot/control_socket.h"

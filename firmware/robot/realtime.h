@@ -17,9 +17,8 @@ struct RealtimeWishes {
   bool required = true;         ///< a run does not start without what it asks for here
 };
 
-/// Priorities where processors are few: the guard, the loop, then the thread that reads the scanner.
-/// After them come those that take a person's orders: the joystick's and the control socket's. Planner and report are
-/// ordinary threads: a plan that takes long holds up none of these.
+/// Priorities where processors are few: the guard, the loop, the scanner's thread, then those that take a person's
+/// orders: the joystick's and the control socket's. Planner and report are ordinary threads and hold up none of these.
 [[nodiscard]] constexpr int guard_priority(const RealtimeWishes& w) { return w.priority > 0 ? w.priority + 1 : 0; }
 [[nodiscard]] constexpr int laser_priority(const RealtimeWishes& w) {
   return w.priority > 1 ? w.priority - 1 : w.priority;
@@ -28,12 +27,10 @@ struct RealtimeWishes {
   return w.priority > 2 ? w.priority - 2 : w.priority;
 }
 
-/// Keeps all memory, had and to come, from being paged out. Start-up only, once a process.
-/// Returns what was not permitted and what would permit it, a line each; empty: all is well.
+/// Keeps all memory from being paged out; once, at start. Returns what was not permitted and what would permit it.
 std::vector<std::string> lock_memory();
 
-/// Keeps processors from deep sleep, out of which they wake late, as long as the process lives (the kernel's PM QoS).
-/// Where that is not permitted nothing changes. Start-up only.
+/// Keeps processors, where permitted, from deep sleep, out of which they wake late, while the process lives (PM QoS).
 void keep_processors_awake() noexcept;
 
 /// Asks the kernel for what the calling thread wishes, except memory, and touches its stack. The same answer.

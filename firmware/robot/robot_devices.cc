@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "drivers/laser/scanner_connection.h"
-#include "firmware/robot/commissioned.h"
+#include "firmware/robot/preflight.h"
 #include "hal/shown_text.h"
 #include "hal/types/errors.h"
 
@@ -14,8 +14,8 @@ namespace {
 constexpr const char* kStartNodes = "start the robot's ROS 2 nodes, and jaywalk_dds with this file and their domain";
 
 /// `bus`: of make_bus(), or the same socket once more.
-std::unique_ptr<EmergencyBrake> make_brake(const DriveWiring& wiring, CanBus& bus) {
-  if (wiring.kind == DriveKind::kDds) return std::make_unique<ros::Stopper>(static_cast<ros::RosBus&>(bus));
+EmergencyBrake make_brake(const DriveWiring& wiring, CanBus& bus) {
+  if (wiring.kind == DriveKind::kDds) return [&bus] { static_cast<ros::RosBus&>(bus).brake(); };
   const std::array nodes{wiring.axes()[0].node, wiring.axes()[1].node};
   std::vector<CanFrame> frames;
   if (wiring.kind == DriveKind::kPioneer) frames = arcos::stop_frames();
@@ -24,7 +24,9 @@ std::unique_ptr<EmergencyBrake> make_brake(const DriveWiring& wiring, CanBus& bu
     if (wiring.kind == DriveKind::kOdrive) frames.push_back(odrive::set_velocity(node, 0.0F));
     if (wiring.kind == DriveKind::kVesc) frames.push_back(vesc::set_erpm(node, 0));
   }
-  return std::make_unique<FrameBrake>(bus, frames);
+  return [&bus, frames] {  // a frame that is not taken is ignored: it is said again as long as it has to be
+    for (const CanFrame& frame : frames) static_cast<void>(bus.send(frame));
+  };
 }
 
 /// Throws where a scan's fan is not the file's, by half a step and more: a wrong step bends all that is seen. A turn's

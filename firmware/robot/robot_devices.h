@@ -7,9 +7,7 @@
 #include <vector>
 
 #include "drivers/can/can_bus.h"
-#include "drivers/can/can_interface.h"
 #include "drivers/can/socketcan.h"
-#include "drivers/canopen/cia402.h"
 #include "drivers/laser/scanner_connection.h"
 #include "firmware/robot/robot_file.h"
 
@@ -26,12 +24,11 @@ class RobotDevices {
   /// Of each scanner.
   [[nodiscard]] std::span<const std::unique_ptr<ScannerConnection>> lasers() const noexcept { return lasers_; }
   [[nodiscard]] WiredDrive& drive() noexcept { return *drive_; }
-  [[nodiscard]] EmergencyBrake& brake() noexcept { return *brake_; }
+  [[nodiscard]] const EmergencyBrake& brake() const noexcept { return brake_; }
   [[nodiscard]] const CanBus& bus() const noexcept { return *bus_; }
 
-  /// Start-up only, when all else is ready: starts each scanner and waits for its first scan, then listens to the
-  /// drives, which are to be armed at once: some speak without being asked, and nobody would fetch it. Throws
-  /// StartupError where no scan comes in time, or where it is not the scanner that the file describes.
+  /// Start-up only, when all else is ready: await_first_scan() of each scanner, then listens to the drives, which are
+  /// to be armed at once: some speak without being asked, and nobody would fetch it. Throws StartupError.
   void start();
 
  private:
@@ -43,18 +40,16 @@ class RobotDevices {
   std::unique_ptr<CanBus> brake_can_;  ///< the same kernel socket: what the guard sends is not another master's
   std::vector<std::unique_ptr<ScannerConnection>> lasers_;
   std::unique_ptr<WiredDrive> drive_;
-  std::unique_ptr<EmergencyBrake> brake_;
+  EmergencyBrake brake_;
 };
 
-/// Not started yet, not armed yet. `bus` and `clock` outlive them; a `deaf` CAN bus hears nothing before it is told to
-/// listen. Throw StartupError.
+/// Not started, not armed. `bus` and `clock` outlive them; a `deaf` CAN bus hears nothing yet. Throw StartupError.
 [[nodiscard]] std::unique_ptr<ScannerConnection> make_laser(const RobotFile& file, Clock& clock,
                                                             std::size_t scanner = 0);
 [[nodiscard]] std::unique_ptr<CanBus> make_bus(const DriveWiring& wiring, Clock& clock, bool deaf = false);
 [[nodiscard]] std::unique_ptr<WiredDrive> make_drive(const DriveWiring& wiring, CanBus& bus, Clock& clock);
 
-/// Start-up only: starts the scanner and waits for its first scan. Throws StartupError where none comes in time, or
-/// where it is not the scanner that the file describes.
+/// Start-up only: starts the scanner and awaits its first scan. Throws StartupError: none in time, or not the file's.
 void await_first_scan(ScannerConnection& laser, const RobotFile& file, Clock& clock, std::size_t scanner = 0);
 
 /// The ring in this user's runtime folder through which jaywalk_dds and this program share a ROS 2 topic.

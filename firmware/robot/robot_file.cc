@@ -201,9 +201,7 @@ panel::JoystickSetup read_panel(TomlTable table, StickUse& steering) {
   if (steering != StickUse::kNone && !joystick.needs_dead_man)
     table.refuse("steering", "has no dead man", "set needs_dead_man = true, or steering = \"none\"");
   joystick.steers = steering != StickUse::kNone;
-  require_distinct(
-      table,
-      {{"dead_man_button", joystick.dead_man}, {"stop_button", joystick.stop}, {"reset_button", joystick.reset}});
+  require_distinct(table, {"dead_man_button", "stop_button", "reset_button"});
   table.finish();
   return joystick;
 }

@@ -2,7 +2,6 @@
 // ROBOT.toml: which robot this is and how its devices are wired. docs/tutorial/first-real-robot.md has every key.
 #include <algorithm>
 #include <cctype>
-#include <cstdint>
 #include <filesystem>
 #include <initializer_list>
 #include <optional>
@@ -57,25 +56,16 @@ void require_plausible(const RobotFile& robot, const DriveModel& nominal, const 
 /// Those of CiA 402 drives that are members of their settings.
 [[nodiscard]] const BoundKeys<canopen::DriveSettings>& canopen_keys();
 
-// Numbers of ROBOT.toml that may not be one: nodes on a bus, buttons.
-
-/// What a key of a table says.
-struct Numbered {
-  const char* key;
-  std::uint16_t value;
-};
-
-/// Refuses the first that repeats one before it.
-inline void require_distinct(const TomlTable& table, std::initializer_list<Numbered> all) {
-  for (const Numbered& one : all) {
-    for (const Numbered* other = all.begin(); other != &one; ++other)
-      if (one.value == other->value)
-        table.refuse(one.key, std::string("is ") + other->key + " too", "give each its own");
+/// Refuses the first key whose number (a node on a bus, a button) is that of a key before it.
+inline void require_distinct(TomlTable& table, std::initializer_list<const char*> keys) {
+  for (const char* const& key : keys) {
+    for (const char* const* other = keys.begin(); other != &key; ++other)
+      if (table.integer(key) == table.integer(*other))
+        table.refuse(key, std::string("is ") + *other + " too", "give each its own");
   }
 }
 
-/// A topic's whole name as ROS 2 has it, "/robot/scan"; `otherwise` where `key` is absent. Throws StartupError where it
-/// holds none.
+/// A topic's whole name as ROS 2 has it, "/robot/scan"; `otherwise` where `key` is absent. Throws StartupError.
 [[nodiscard]] inline std::string read_topic(TomlTable& table, const std::string& key, const std::string& otherwise) {
   constexpr std::size_t kMostLetters = 64;  // some would do; a file is named after it
   std::string topic = table.text(key, otherwise);

@@ -32,7 +32,7 @@ void StallGuard::watch(int priority) noexcept {
     clock_.sleep_until(clock_.now() + limit_ / 4);
     const std::int64_t beat = beat_.load(std::memory_order_acquire);
     const bool late = beat != kResting && clock_.now() - Time{Duration{beat}} > limit_;
-    if (late) brake_.brake();
+    if (late) brake_();
     if (late && !stalled) stalls_.fetch_add(1, std::memory_order_relaxed);
     stalled = late;
   }
@@ -153,7 +153,7 @@ void RobotLoop::tell(const TickRecord& t) noexcept {
   status_.has_goal = t.input.has_goal && !status_.goal_reached;
   status_.goal_in_map = t.input.goal_in_map;
   status_.goal_heading_rad = t.input.goal_heading_rad;
-  status_.turns_at_goal = runner_.loop().turns_at_goal();
+  status_.turns_at_goal = runner_.loop().motion().status().turns_at_goal;
   status_.reasons = t.verdict.reasons;
   status_.faulty_scanners = t.verdict.faulty_scanners;
   status_.plan = t.plan_status;

@@ -22,13 +22,12 @@
 namespace jaywalk {
 
 /// Watches the loop from a thread of its own: when no beat came for `limit` it brakes, and again every quarter of it
-/// until the loop beats again (SAFETY: a stall over 100 ms). What the loop does after that is the supervisor's matter:
-/// it counts the ticks that were missed.
+/// until the loop beats again (SAFETY: a stall over 100 ms). The supervisor counts the ticks that were missed.
 class StallGuard {
  public:
-  /// Both outlive it. The brake is used by the guard's thread alone.
-  StallGuard(EmergencyBrake& brake, Clock& clock, Duration limit) noexcept
-      : brake_(brake), clock_(clock), limit_(limit) {}
+  /// `clock` outlives it. The brake is used by the guard's thread alone.
+  StallGuard(EmergencyBrake brake, Clock& clock, Duration limit) noexcept
+      : brake_(std::move(brake)), clock_(clock), limit_(limit) {}
   ~StallGuard();
 
   /// Starts the thread, with a priority of SCHED_FIFO (0: an ordinary one).
@@ -45,7 +44,7 @@ class StallGuard {
 
   void watch(int priority) noexcept;
 
-  EmergencyBrake& brake_;
+  EmergencyBrake brake_;
   Clock& clock_;
   Duration limit_;
   std::atomic<std::int64_t> beat_{kResting};
@@ -82,13 +81,11 @@ class RobotLoop {
             TickObserver& observer);
   ~RobotLoop();
 
-  /// Start-up only, before the drives are armed: starts the thread, which asks the kernel for what is wished and then
-  /// waits. Returns what was not permitted, a line each.
+  /// Before the drives are armed: starts the thread, which waits for start(). Returns what the kernel did not permit.
   [[nodiscard]] std::vector<std::string> prepare(const RealtimeWishes& wishes);
   /// The drives are armed: the prepared thread begins to tick.
   void start() noexcept;
-  /// Takes no more goals, ramps to rest, disarms the drives and ends the thread; the caller goes on taking traces until
-  /// has_ended().
+  /// Takes no more goals, ramps to rest, disarms the drives and ends the thread; traces go on until has_ended().
   void end() noexcept;
   [[nodiscard]] bool has_ended() const noexcept { return ended_; }
 

@@ -59,16 +59,13 @@ struct RunStatus {
 /// Lines of "word: value" for a person and for scripts. Not for the loop.
 [[nodiscard]] std::string describe(const RunStatus& status);
 
-// What a run on a robot leaves behind beside what every run leaves (docs/reference/outputs.md).
-
 /// arming.txt: what each drive said to each setting. Throws StartupError where the folder cannot be written to.
 void write_arming(const std::filesystem::path& folder, const std::vector<std::string>& proof);
 
 /// "66 settings proved", "64 settings proved, 2 NOT PROVED".
 [[nodiscard]] std::string in_short(const std::vector<std::string>& proof);
 
-/// devices.json: wheel radii as the drives' scales have them, frames, scans, ticks that were lost or bad, and what the
-/// kernel did not permit. Throws likewise.
+/// devices.json: wheel radii, frames, scans and ticks lost or bad, what the kernel did not permit. Throws likewise.
 void write_devices(const std::filesystem::path& folder, const DriveWiring& drive, const RunStatus& last,
                    const std::vector<std::string>& not_permitted);
 

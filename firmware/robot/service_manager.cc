@@ -2,11 +2,9 @@
 
 #include <fcntl.h>
 #include <poll.h>
-#include <pthread.h>
 #include <sys/socket.h>
 #include <sys/un.h>
 #include <time.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -131,16 +129,15 @@ void SignalThread::live(int priority) noexcept {
   while (!ending_) {
     const int signal = ::sigtimedwait(&signals_, nullptr, &kSignalRound);
     const std::lock_guard lock(handling_);
-    if (signal > 0) take(signal);
-    if (handler_ != nullptr) handler_->round_();
+    if (handler_ != nullptr) {
+      if (signal > 0) handler_->signalled_();
+      handler_->round_();
+    } else if (signal > 0) {
+      ::signal(signal, SIG_DFL);
+      ::pthread_sigmask(SIG_UNBLOCK, &signals_, nullptr);
+      ::raise(signal);
+    }
   }
-}
-
-void SignalThread::take(int signal) noexcept {
-  if (handler_ != nullptr) return handler_->signalled_();
-  ::signal(signal, SIG_DFL);
-  ::pthread_sigmask(SIG_UNBLOCK, &signals_, nullptr);
-  ::raise(signal);
 }
 
 SignalThread::Handler::Handler(SignalThread& thread, std::function<void()> signalled, std::function<void()> round)

@@ -29,8 +29,7 @@ class ServiceManager {
   /// The drives are armed and the loop ticks.
   void ready() const { say("READY=1\nSTATUS=armed"); }
   void stopping() const { say("STOPPING=1"); }
-  /// The drives are disarmed and no loop ticks any more: writing tables and picture may take longer than the watchdog
-  /// waits, and has the limit of a stop (TimeoutStopSec).
+  /// No loop ticks any more: writing the tables has the limit of a stop (TimeoutStopSec), not the watchdog's.
   void loop_has_ended() const { say("STOPPING=1\nWATCHDOG_USEC=0"); }
   /// Passes on, four times in the watchdog's time, that the loop has ticked since: a loop that hangs is not alive.
   void alive(std::uint64_t ticks, Time now);
@@ -46,9 +45,8 @@ class ServiceManager {
 
 /// While it lives, nothing in this process waits for standard error: what is written there goes into a pipe that never
 /// blocks, and a thread of this class passes it on to the terminal, file or pipe that was there. Where that does not
-/// take it (Ctrl-S, a reader that sleeps or is gone), lines beyond the pipe's 64 kB are lost and counted.
-///
-/// Its end waits half a second for what is still to be passed on, then gives it up. Start-up and end: one thread.
+/// take it (Ctrl-S, a reader that sleeps or is gone), lines beyond the pipe's 64 kB are lost and counted. Its end waits
+/// half a second for what is still to be passed on. Start-up and end: one thread.
 class StderrRelay {
  public:
   /// Where no pipe can be made standard error stays as it is, and may block.
@@ -90,14 +88,12 @@ class SignalThread {
     std::function<void()> signalled_, round_;
   };
 
-  /// From now on the signals wait, here and in threads to come: make it before any other thread. `priority`: of
-  /// SCHED_FIFO; 0: an ordinary thread.
+  /// Makes the signals wait, here and in threads to come: before any other. `priority`: of SCHED_FIFO; 0: ordinary.
   explicit SignalThread(int priority);
   ~SignalThread();
 
  private:
   void live(int priority) noexcept;
-  void take(int signal) noexcept;
 
   sigset_t signals_{};
   std::mutex handling_;  ///< held while a handler is called

@@ -141,23 +141,18 @@ bool FreeClaims::has_failed(const LaserScan& scan, const Vanished& vanished) con
   return beams * std::fabs(step_rad_) >= kWide_rad && !moves_beside(scan, vanished);
 }
 
-/// Distance of a hit from the surface expected of its beam and of the two beside it, m; infinity without one.
-double FreeClaims::moved_m(std::size_t beam, double range_m) const noexcept {
-  double least_m = std::numeric_limits<double>::infinity();
-  for (const std::size_t near : {beam, at(beam + 1), at(beam + beams_ - 1)})
-    if (expected_[near].seen != kNever)
-      least_m = std::min(least_m, std::fabs(range_m - norm(expected_[near].in_laser)));
-  return least_m;
-}
-
 bool FreeClaims::moves_beside(const LaserScan& scan, const Vanished& vanished) const noexcept {
   const Vec2 first = expected_[at(vanished.first)].in_laser, last = expected_[at(vanished.last)].in_laser;
   for (std::size_t beam = 0; beam < beams_; ++beam) {
     if (!scan.is_hit(beam)) continue;
     const auto range_m = static_cast<double>(scan.range_m[beam]);
     const Vec2 hit = direction(scan.angle_rad(beam)) * range_m;
-    if (std::min(distance(hit, first), distance(hit, last)) < kBeside_m && moved_m(beam, range_m) > kMoved_m)
-      return true;
+    if (!(std::min(distance(hit, first), distance(hit, last)) < kBeside_m)) continue;
+    double moved_m = std::numeric_limits<double>::infinity();  // from what is expected of it and of the two beside it
+    for (const std::size_t near : {beam, at(beam + 1), at(beam + beams_ - 1)})
+      if (expected_[near].seen != kNever)
+        moved_m = std::min(moved_m, std::fabs(range_m - norm(expected_[near].in_laser)));
+    if (moved_m > kMoved_m) return true;
   }
   return false;
 }
@@ -250,14 +245,13 @@ void LoneReturns::strike_out(LaserScan& scan) const noexcept {
 }
 
 BeamFilter::BeamFilter(const RobotModel& model, std::size_t scanner, bool has_wheels)
-    : blanked_(model.lasers()[scanner].blanked),
-      robot_from_laser_(model.lasers()[scanner].robot_from_laser),
+    : laser_(model.lasers()[scanner]),
       track_width_m_(model.drive.track_width_m),
       has_wheels_(has_wheels),
       travel_(model.drive) {}
 
 void BeamFilter::filter(LaserScan& scan, const WheelState& wheels) noexcept {
-  blank(blanked_, scan);
+  blank(laser_.blanked, scan);
   travel_.note(wheels);
   if (!has_wheels_ || scan.sequence == 0 || scan.beam_count < 2 || scan.beam_count > kMaxBeams) return;
   const bool is_new = std::exchange(sequence_, scan.sequence) != scan.sequence;
@@ -272,7 +266,7 @@ void BeamFilter::filter(LaserScan& scan, const WheelState& wheels) noexcept {
 Pose2 BeamFilter::now_from_before(Time stamp) noexcept {
   const std::optional<Rolled> before = std::exchange(rolled_, travel_.expected_at(stamp));
   const Pose2 moved = before && rolled_ ? arc_of(*rolled_ - *before, track_width_m_) : Pose2{};
-  return inverse(inverse(robot_from_laser_) * moved * robot_from_laser_);
+  return inverse(inverse(laser_.robot_from_laser) * moved * laser_.robot_from_laser);
 }
 
 }  // namespace jaywalk

@@ -46,7 +46,6 @@ class FreeClaims {
   void find_vanished(const LaserScan& scan) noexcept;
   void add(const LaserScan& scan, std::size_t beam, Vanished& vanished) const noexcept;
   [[nodiscard]] bool has_failed(const LaserScan& scan, const Vanished& vanished) const noexcept;
-  [[nodiscard]] double moved_m(std::size_t beam, double range_m) const noexcept;
   [[nodiscard]] bool moves_beside(const LaserScan& scan, const Vanished& vanished) const noexcept;
   void doubt(const LaserScan& scan, const Vanished& vanished) noexcept;
   void believe_hits(const LaserScan& scan) noexcept;
@@ -70,8 +69,7 @@ class FreeClaims {
 /// Until then its range is told with a minus sign: it proves nothing, and a recording keeps it.
 class LoneReturns {
  public:
-  /// Judges a new scan. `now_from_before`: pose of the laser at the scan before, in its frame at this one. Cost: some
-  /// ten steps for each beam.
+  /// As FreeClaims::take(). Cost: some ten steps for each beam.
   void take(const LaserScan& scan, const Pose2& now_from_before) noexcept;
   void strike_out(LaserScan& scan) const noexcept;
 
@@ -103,8 +101,7 @@ class BeamFilter {
  private:
   [[nodiscard]] Pose2 now_from_before(Time stamp) noexcept;
 
-  Blanking blanked_;
-  Pose2 robot_from_laser_;
+  LaserModel laser_;
   double track_width_m_;
   bool has_wheels_;
   WheelTravel travel_;

@@ -1,5 +1,5 @@
 #pragma once
-// Ground that no scan proves free: gaps between beams, and parts of the body that move into them.
+// Ground that no scan proves free: gaps between beams, walls that stand there, and parts of the body that move there.
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -32,12 +32,15 @@ struct BeamCounts {
 /// view has one neighbour, and counts twice its width. Thread: the loop's; never allocates, never throws.
 class BlindGaps {
  public:
-  explicit BlindGaps(const LaserModel& laser) : laser_(laser) {}
+  explicit BlindGaps(const LaserModel& laser)
+      : laser_(laser), robot_from_laser_(laser.robot_from_laser), laser_from_robot_(inverse(laser.robot_from_laser)) {}
 
   void update(const LaserScan& scan) noexcept;
 
   /// Of a place in the laser's frame.
   [[nodiscard]] Coverage at(Vec2 place_in_laser) const noexcept;
+  [[nodiscard]] const Transform2& robot_from_laser() const noexcept { return robot_from_laser_; }
+  [[nodiscard]] const Transform2& laser_from_robot() const noexcept { return laser_from_robot_; }
   [[nodiscard]] const BeamCounts& counts() const noexcept { return counts_; }
   /// How near the laser something can be hidden by lost beams; +infinity where nothing can.
   [[nodiscard]] double nearest_lost_m() const noexcept { return nearest_lost_m_; }
@@ -65,6 +68,7 @@ class BlindGaps {
   void mark(std::size_t from, std::size_t count, double half_rad) noexcept;
 
   LaserModel laser_;
+  Transform2 robot_from_laser_, laser_from_robot_;
   std::size_t beams_ = 0;
   double first_rad_ = 0.0, step_rad_ = 0.0;
   bool all_round_ = false;
@@ -75,18 +79,8 @@ class BlindGaps {
   double nearest_lost_m_ = 0.0;
 };
 
-/// What the scans of all scanners say of places in the robot's frame: the best that one of them says. Thread: the
-/// loop's; allocates in the constructor alone.
-class Lookout {
- public:
-  explicit Lookout(const OfEach<Pose2>& robot_from_lasers) {
-    for (const Pose2& mount : robot_from_lasers) laser_from_robot_.emplace_back(inverse(mount));
-  }
-  [[nodiscard]] Coverage at(const OfEach<BlindGaps>& gaps, Vec2 place) const noexcept;
-
- private:
-  std::vector<Transform2> laser_from_robot_;
-};
+/// The best that one of the scanners says of a place in the robot's frame.
+[[nodiscard]] Coverage coverage_at(const OfEach<BlindGaps>& gaps, Vec2 place) noexcept;
 
 /// Whether so many beams prove nothing that the scanner has to be seen to (SAFETY 17): more than half of those that it
 /// should measure, at once; more than a third of those within 60 degrees of the way ahead, for longer than a second.
@@ -104,10 +98,9 @@ class SightLoss {
 class Watch {
  public:
   /// `margin_m`: the most that is kept free round the footprint.
-  Watch(const Footprint& footprint, const OfEach<Pose2>& robot_from_lasers, double margin_m);
+  Watch(const Footprint& footprint, double margin_m);
 
-  /// Speed (m/s) of the fastest point of the body that moves, by more than half of that speed, outward to where no
-  /// laser ever looks; 0 where none does.
+  /// Speed (m/s) of the body's fastest point that moves mostly outward to where no laser ever looks; 0 where none does.
   [[nodiscard]] double unwatched_mps(const OfEach<BlindGaps>& gaps, const Twist2& twist,
                                      const SweptPath& path) const noexcept;
 
@@ -130,10 +123,49 @@ class Watch {
     return std::max(moves.x * rim.outward.x, moves.y * rim.outward.y);
   }
 
-  Lookout lookout_;
   double margin_m_;
   Footprint held_free_;  ///< the footprint grown by the margin
   std::vector<RimPoint> rim_;
+};
+
+/// Ground near the robot, in its frame, as the loop's map knows it.
+class KnownGround {
+ public:
+  virtual ~KnownGround() = default;
+  [[nodiscard]] virtual bool seen_free(Vec2 place) const noexcept = 0;
+  /// A wall may stand there: of its end little is seen, and soon nothing. Forgotten once the robot is elsewhere.
+  virtual void suppose(Vec2 place) noexcept = 0;
+};
+
+/// Walls where no laser looks, as points for the stop zone: those that the loop knows from its map, and each wall that
+/// is straight up to the rim of sight, continued past the body. One seen too little to tell its direction is guessed to
+/// go on along the body's side, a body's length beyond it. Thread: the loop's; never allocates or throws.
+class UnseenWalls {
+ public:
+  /// `reach_m`: from the axle; what a wall is supposed to be farther off is left out.
+  UnseenWalls(const Footprint& footprint, double reach_m) : footprint_(footprint), reach_m_(reach_m) {}
+
+  /// `known`: surfaces near the robot, in its frame. `ground`: null where there is no map.
+  void update(const OfEach<LaserScan>& scans, const OfEach<BlindGaps>& gaps, std::span<const Vec2> known,
+              KnownGround* ground = nullptr) noexcept;
+  /// In the robot's frame, 4 cm apart or less.
+  [[nodiscard]] std::span<const Vec2> points() const noexcept { return {points_.data(), points_.size()}; }
+
+ private:
+  /// A scanner's, which looks no farther than beam `rim`.
+  struct Rim {
+    std::size_t scanner, beam;
+    int inward;  ///< 1 or -1: to the next beam that looks
+  };
+  /// Fits a line to the hits from the rim of sight inward, and continues it out of sight.
+  void continue_wall(const LaserScan& scan, const OfEach<BlindGaps>& gaps, const Rim& rim) noexcept;
+  void add_line(const OfEach<BlindGaps>& gaps, Vec2 from, Vec2 along, double length_m) noexcept;
+  void add(const OfEach<BlindGaps>& gaps, Vec2 point) noexcept;
+
+  Footprint footprint_;
+  double reach_m_;
+  KnownGround* ground_ = nullptr;   ///< during update()
+  FixedVector<Vec2, 1024> points_;  ///< what does not fit is left out: the nearest of a wall come first
 };
 
 }  // namespace jaywalk

@@ -29,8 +29,8 @@ class FeltMotion {
 
   FeltMotion(const DriveModel& drive, const MotionLimits& limits);
 
-  /// Once a tick: `command` is what the drive was sent in the tick before, `wheels` the newest reading. A drive in
-  /// trouble brakes by itself: from it zero is obedience as well.
+  /// Once a tick, with the command of the tick before and the newest reading. From a drive in trouble, which brakes by
+  /// itself, zero is obedience as well.
   [[nodiscard]] bool disobeys(const WheelCommand& command, const WheelState& wheels, Time now) noexcept;
 
  private:
@@ -73,8 +73,7 @@ class FeltMotion {
 /// standing does not, without the sectors that say most, which people or a door may be; out of sight where neither
 /// does. Three scans in a row decide.
 ///
-/// The wheels' angles tell rest, not their speeds: the first scan is kept over a silence of the drives, and over
-/// counters that restart. Thread: the loop's; memory is fixed.
+/// Angles tell rest, not speeds: the first scan outlasts silent drives and counters that restart. Thread: the loop's.
 class RestWatch {
  public:
   enum class Says : std::uint8_t {

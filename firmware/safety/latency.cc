@@ -6,10 +6,6 @@ namespace jaywalk {
 namespace {
 constexpr Duration kMostAhead = std::chrono::milliseconds(100);
 
-bool has_directions(const LaserScan& scan) {
-  return std::isfinite(scan.first_angle_rad) && std::isfinite(scan.angle_step_rad) && scan.angle_step_rad != 0.0F;
-}
-
 constexpr double kMemory_s = 2.0;                      // of time in which commands changed
 constexpr double kEnough_s = 0.3;                      // of it, before anything is said
 constexpr Duration kAtRest = std::chrono::seconds(1);  // after which what was measured is forgotten
@@ -23,7 +19,9 @@ double squares(const WheelState& felt, const WheelCommand& wanted) {
 }  // namespace
 
 bool is_trustworthy(const LaserScan& scan, const LaserModel& laser) noexcept {
-  if (scan.beam_count != laser.beams || scan.beam_count > kMaxBeams || !has_directions(scan)) return false;
+  if (scan.beam_count != laser.beams || scan.beam_count > kMaxBeams) return false;
+  if (!std::isfinite(scan.first_angle_rad) || !std::isfinite(scan.angle_step_rad) || scan.angle_step_rad == 0.0F)
+    return false;
   std::size_t measured = 0;
   for (std::size_t beam = 0; beam < scan.beam_count; ++beam)
     measured += scan.state(beam) != BeamState::kUnknown ? 1U : 0U;

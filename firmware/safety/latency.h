@@ -10,11 +10,9 @@
 #include "hal/types/wheels.h"
 
 namespace jaywalk {
-/// Whether the supervisor may judge by a scan: not with another number of beams than this scanner has, nor with
-/// directions that are no numbers, nor where fewer than three beams measured anything, be it that nothing is in reach:
-/// a scanner that is broken, covered or blinded.
+/// Whether the supervisor may judge by a scan: not with another number of beams than this scanner has, directions that
+/// are no numbers, or fewer than three beams that measured, free room too: a scanner broken, covered or blinded.
 [[nodiscard]] bool is_trustworthy(const LaserScan& scan, const LaserModel& laser) noexcept;
-
 [[nodiscard]] bool is_trustworthy(const WheelState& wheels) noexcept;
 
 /// Whether what is stamped so is older at `now` than `limit`, or was never seen. A stamp more than 0.1 s ahead of now
@@ -34,8 +32,8 @@ inline constexpr double kMostDrive_s = 0.3;
 /// In all at least this, s, however fast loop and drives are.
 inline constexpr double kLeastControlAndDrive_s = 0.08;
 
-/// Ages of scans, in periods of the scanner. The stop zone reckons with the first at least. One scan may be lost and
-/// its successor be half a period late, so that the second is the oldest that is accepted; a sweep may last the third.
+/// Ages of scans, in periods of the scanner: the least that the stop zone reckons with; the oldest that is accepted
+/// (one is lost and the next half a period late); the longest of a sweep.
 inline constexpr double kScanPeriods = 1.5, kOldestScanPeriods = 2.5, kLongestSweepPeriods = 1.2;
 
 /// Age up to which the wheels' newest reading is no fault. Of the loop's own readings, too, one may be lost.
@@ -134,15 +132,13 @@ class Latency {
   Duration worst_{0}, worst_before_{0};
 };
 
-/// Whether scans come in time: one may be lost, two in a row may not (SAFETY 3). It counts in seconds, so that it does
-/// not depend on how often the loop looks. Thread: the loop's.
+/// Whether scans come in time: one may be lost, two in a row may not (SAFETY 3). Thread: the loop's.
 class ScanTiming {
  public:
   explicit ScanTiming(double rate_hz) : rate_hz_(rate_hz) {}
 
-  /// Once a tick, with the newest scan. True where none ever came, where its last beam is older than two and a half
-  /// periods, where it is stamped more than 0.1 s ahead, and where two were lost just before it: a loop slower than the
-  /// scanner may not see them missing.
+  /// Once a tick, with the newest scan. True where none ever came, its last beam is older than two and a half periods,
+  /// it is stamped more than 0.1 s ahead, or two were lost just before it, which a slow loop may not see missing.
   [[nodiscard]] bool is_stale(const LaserScan& scan, Time now) noexcept;
 
  private:

@@ -8,8 +8,7 @@
 
 namespace jaywalk {
 namespace {
-/// Of what a wheel rolls. A wheel that slips moves the robot by less (to 0.4 on ice, docs), and none by more than
-/// worn or pumped-up tyres do.
+/// Of what a wheel rolls: less where it slips (to 0.4 on ice, docs), more by worn or pumped-up tyres alone.
 constexpr double kLeastGain = 0.35, kMostGain = 1.12;
 /// Tangent of the most that the mount may be turned: 8 degrees.
 constexpr double kMostYaw = 0.12;
@@ -166,8 +165,7 @@ bool MotionModel::is_blind() const noexcept {
   return false;
 }
 
-/// From where the errors are least to begin with: as felt, as before and on, standing, a wheel or both reversed, or
-/// swapped.
+/// From where the errors are least to begin with: as felt, as before, standing, wheels reversed or swapped.
 ScanPair::Fit MotionModel::best_fit(const LaserScan& scan, const Rolled& felt) const noexcept {
   const double l = felt.left_m, r = felt.right_m;
   const Pose2 on = inverse(pose_of({felt_before_.left_m, felt_before_.right_m, 0.0})) * pose_of({l, r, 0.0});

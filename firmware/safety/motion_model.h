@@ -24,9 +24,8 @@ class MotionModel {
   /// `scanner`: its index in RobotModel::lasers(). Scans of this scanner alone go to judge().
   explicit MotionModel(const RobotModel& model, std::size_t scanner = 0);
 
-  /// Once a tick, with the newest scan and reading, and what the drive was sent in the tick before: kScanFrozen while
-  /// the scanner repeats what it saw to the last bit, kMotionMismatch from a contradiction on for kHolds,
-  /// kWheelsDisobey.
+  /// Once a tick, with the newest scan and reading, and the command of the tick before: kScanFrozen while the scanner
+  /// repeats a scan to the last bit, kMotionMismatch from a contradiction on for kHolds, kWheelsDisobey.
   [[nodiscard]] Reason judge(const LaserScan& scan, const WheelState& wheels, const WheelCommand& sent,
                              Time now) noexcept;
 

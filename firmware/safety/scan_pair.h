@@ -42,8 +42,7 @@ class ScanPair {
 
   /// Whether the scan's beams have directions; where they are others than before, nothing is kept any more.
   [[nodiscard]] bool usable(const LaserScan& scan) noexcept;
-  /// The robot's twist during the scan's sweep: keep() and what compares the scan with the kept one put each beam where
-  /// the robot was when it was measured.
+  /// Takes the robot's twist during the scan's sweep: each beam is put where the robot was when it was measured.
   void sweep(const LaserScan& scan, const Twist2& felt) noexcept;
   void keep(const LaserScan& scan) noexcept;
   [[nodiscard]] bool is_kept() const noexcept { return !points_.empty(); }
@@ -64,12 +63,10 @@ class ScanPair {
   [[nodiscard]] Fit fit(const LaserScan& scan, const Pose2& start) const noexcept;
   /// One step of it: how good the fit is where it is, and there it is moved on.
   void improve(const LaserScan& scan, Fit& fit) const noexcept;
-  /// By how much the logarithm of the likelihood of errors with that noise, outliers at three of it, is greater than
-  /// that of others, in each sector of the view; `walls`: of flat surfaces alone.
+  /// Log-likelihood of errors with that noise, outliers at three of it, less that of others; `walls`: by walls alone.
   [[nodiscard]] Costs advantage(const Errors& better, const Errors& worse, double noise_m, bool walls) const noexcept;
 
-  /// What standing surfaces would gain so over ones that moved, on average, if they stand: by what the two predict of
-  /// each point, across its surface. Nothing along a wall.
+  /// The mean of that for standing surfaces over moved ones if they stand, by their predictions across each surface.
   [[nodiscard]] Costs gain_of_standing(const LaserScan& scan, const Pose2& kept_from_now,
                                        double noise_m) const noexcept;
 

@@ -34,13 +34,6 @@ Vec2 surface_at(const LaserScan& scan, std::size_t beam) {
 constexpr double kPost_m = 0.07;
 constexpr const char* kRemedy = ", raise limits.brake_mps2 (what the drives are proved to do), or take ";
 
-double farthest_corner_m(const Footprint& body, const LaserModel& of) {
-  const Vec2 laser = of.robot_from_laser.position();
-  double farthest = 0.0;
-  for (const Vec2 corner : corners_of(body)) farthest = std::max(farthest, distance(laser, corner));
-  return farthest;
-}
-
 /// Fastest forward speed, m/s, from which the robot stops within `stop_m` metres while it turns at the model's rate.
 double speed_for_stop(const RobotModel& model, Duration tick, double stop_m) {
   const double bt = model.limits.brake_mps2 * worst_reaction_s(model, tick);
@@ -55,7 +48,10 @@ std::string lower_speed_to(double mps) {
 
 void require_in_reach(const RobotModel& model, const LaserModel& laser, Duration tick, const std::string& place) {
   const double stop_m = longest_stop_m(model, tick);
-  const double reach_m = stop_m + StopZoneConfig{}.margin_m + farthest_corner_m(model.footprint, laser);
+  double corner_m = 0.0;  // the farthest from the laser
+  for (const Vec2 corner : corners_of(model.footprint))
+    corner_m = std::max(corner_m, distance(laser.robot_from_laser.position(), corner));
+  const double reach_m = stop_m + StopZoneConfig{}.margin_m + corner_m;
   const double step_rad = laser.fov_rad / (laser.beams - 1);
   const double seen_m = kPost_m / (2.0 * sin(std::min(0.5 * step_rad, 0.5 * kPi)));
   const auto refuse_beyond = [&](double limit_m, const char* why, const char* otherwise) {

@@ -84,20 +84,18 @@ class StopZone {
   /// robot's frame. Cost: a few steps of 4 cm for each beam and point within reach.
   [[nodiscard]] double gap_m(const OfEach<LaserScan>& scans, const Twist2& twist,
                              std::span<const Vec2> unseen = {}) const noexcept;
-  /// Whether it may creep on beside what is near already (StopZoneRules), over all of the way that it looks along. For
-  /// noise would keep it there, or let it come too near, a surface is where the beams that meet 3 cm of it say in the
-  /// mean.
+  /// Whether it may creep on beside what is near already (StopZoneRules), over all of the way that it looks along. A
+  /// surface is in the mean of the beams that meet 3 cm of it: noise would keep the robot there, or let it come too
+  /// near.
   [[nodiscard]] bool may_creep(const OfEach<LaserScan>& scans, const Twist2& twist, std::span<const Vec2> unseen,
                                double reaction_s) const noexcept;
   /// From the axle: nothing farther off counts.
   [[nodiscard]] double reach_m() const noexcept { return rim_radius_m_ + config_.margin_m + config_.look_ahead_m; }
-  /// Whether a beam ends within the footprint: on a part of the robot itself, or on a person touching it. Such a
-  /// point forbids every motion that does not leave it.
+  /// Whether a beam ends within the footprint, on the robot or on a person touching it: all but leaving is forbidden.
   [[nodiscard]] bool is_on_body(const LaserScan& scan, std::size_t beam) const noexcept;
   [[nodiscard]] std::size_t beams_on_body(const LaserScan& scan) const noexcept;
   /// What is kept free round the footprint (m) at this speed of its rim.
   [[nodiscard]] double margin_at(double rim_mps) const noexcept;
-  [[nodiscard]] OfEach<Pose2> mounts() const noexcept { return {config_.robot_from_laser, config_.robot_from_others}; }
   /// Speed of the fastest-moving part of the footprint, m/s.
   [[nodiscard]] double rim_speed_mps(const Twist2& twist) const noexcept {
     return std::fabs(twist.v_mps) + std::fabs(twist.w_radps) * rim_radius_m_;
@@ -111,7 +109,7 @@ class StopZone {
 
  private:
   [[nodiscard]] const Pose2& mount_of(const LaserScan& scan) const noexcept {
-    return scan.scanner == 0 ? config_.robot_from_laser : config_.robot_from_others[scan.scanner - 1U];
+    return OfEach<Pose2>(config_.robot_from_laser, config_.robot_from_others)[scan.scanner];
   }
   /// How far the rim goes before the footprint meets `point` (in the robot's frame); +infinity beyond `most_m`.
   [[nodiscard]] double way_to(Vec2 point, const SweptPath& path, double margin_m, double most_m) const noexcept;
@@ -123,16 +121,14 @@ class StopZone {
 /// Speed (m/s) of the fastest-moving part of the footprint at the limits of speed and turn rate, both at once.
 [[nodiscard]] double fastest_rim_mps(const RobotModel& model) noexcept;
 
-/// How far that part goes until the robot stands, m: from its fastest, with the oldest scan that is accepted and the
-/// slowest loop and drives that are reckoned with. The stop zone looks so far ahead.
+/// How far that part goes, m, from its fastest until the robot stands, with worst_reaction_s().
 [[nodiscard]] double longest_stop_m(const RobotModel& model, Duration tick) noexcept;
 
 /// The supervisor's stop zone for a robot: it looks ahead as far as longest_stop_m().
 [[nodiscard]] StopZoneConfig stop_zone_for(const RobotModel& model, Duration tick) noexcept;
 
-/// No robot outruns its stop zone (SAFETY 8 and 19): before the loop. Throws StartupError, which begins with `place`,
-/// where its longest stop does not fit into a laser's range, or so far out a cylinder of 70 mm fits between two of its
-/// beams.
+/// Before the loop (SAFETY 8 and 19): throws StartupError, which begins with `place`, where the robot's longest stop
+/// does not fit into a laser's range, or so far out a cylinder of 70 mm fits between two of its beams.
 void require_zone_in_reach(const RobotModel& model, Duration tick, const std::string& place);
 
 }  // namespace jaywalk

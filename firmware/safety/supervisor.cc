@@ -41,15 +41,13 @@ double plan_share(Time plan_stamp, Time now) {
 
 constexpr double kPlannersReach_m = 3.0;  // beyond the stop zone's: motion keeps off unseen walls early
 
-Twist2 scaled(const Twist2& twist, double share) { return {twist.v_mps * share, twist.w_radps * share}; }
-
 }  // namespace
 
 Supervisor::Supervisor(const SupervisorConfig& config)
     : config_(config),
       stop_zone_(stop_zone_for(config.model, config.tick)),
-      watch_(config.model.footprint, stop_zone_.mounts(), StopZoneConfig{}.margin_m),
-      unseen_walls_(config.model.footprint, stop_zone_.mounts(), stop_zone_.reach_m() + kPlannersReach_m),
+      watch_(config.model.footprint, StopZoneConfig{}.margin_m),
+      unseen_walls_(config.model.footprint, stop_zone_.reach_m() + kPlannersReach_m),
       mode_(config.latches_all ? Mode::kStandby : Mode::kArmed) {
   for (const LaserModel& laser : config.model.lasers()) {
     scanners_.push_back({laser,
@@ -90,7 +88,7 @@ Reason Supervisor::scan_faults(const SafetyInput& input) noexcept {
   Reason reasons = Reason::kNone;
   faulty_ = 0;
   for (std::size_t k = 0; k < scanners_.size(); ++k) {
-    const Reason own = scan_faults(k, input) | motion_faults(k, input);
+    const Reason own = faults_of(k, input);
     if (scanners_.size() > 1 && has(own, kOfScanner)) faulty_ = static_cast<std::uint8_t>(faulty_ | (1U << k));
     reasons |= own;
   }
@@ -98,10 +96,14 @@ Reason Supervisor::scan_faults(const SafetyInput& input) noexcept {
   return reasons;
 }
 
-Reason Supervisor::scan_faults(std::size_t scanner, const SafetyInput& input) noexcept {
+Reason Supervisor::faults_of(std::size_t scanner, const SafetyInput& input) noexcept {
+  constexpr Reason kNeedObedience = Reason::kWheelsDisobey | Reason::kMotionMismatch;
   Scanner& judged = scanners_[scanner];
   const LaserScan& scan = input.scans[scanner];
-  Reason reasons = Reason::kNone;
+  Reason reasons = judged.motion.judge(scan, input.wheels, input.sent, input.now);
+  if (mode_ == Mode::kStandby) judged.wheel_proof.begin();
+  if (config_.proves_wheels && judged.wheel_proof.contradicts(scan, input.wheels)) reasons |= Reason::kMotionMismatch;
+  if (!config_.judges_motion) reasons = without(reasons, kNeedObedience);
   if (judged.timing.is_stale(scan, input.now)) reasons |= Reason::kScanStale;
   if (scan.sequence > 0 && !is_trustworthy(scan, judged.laser)) reasons |= Reason::kScanInvalid;
   gaps_[scanner].update(scan);
@@ -117,24 +119,10 @@ Reason Supervisor::wheel_faults(const SafetyInput& input) const noexcept {
       is_older(wheels.stamp, input.now, oldest_wheels(config_.model.drive.times, config_.tick)))
     reasons |= Reason::kWheelsStale;
   if (!is_trustworthy(wheels)) reasons |= Reason::kWheelsInvalid;
-  if (config_.judges_motion && answers_late(input.latency)) reasons |= Reason::kWheelsDisobey;
+  // Feedback, read once a tick, that follows the commands later than a sound drive's is old, whatever its stamp says.
+  const double sound_s = config_.model.drive.times.obeyed_within_s() + to_seconds(config_.tick);
+  if (config_.judges_motion && input.latency.drive_s > sound_s) reasons |= Reason::kWheelsDisobey;
   return reasons;
-}
-
-Reason Supervisor::motion_faults(std::size_t scanner, const SafetyInput& input) noexcept {
-  Scanner& judged = scanners_[scanner];
-  Reason reasons = judged.motion.judge(input.scans[scanner], input.wheels, input.sent, input.now);
-  if (mode_ == Mode::kStandby) judged.wheel_proof.begin();
-  if (config_.proves_wheels && judged.wheel_proof.contradicts(input.scans[scanner], input.wheels))
-    reasons |= Reason::kMotionMismatch;
-  constexpr Reason kNeedObedience = Reason::kWheelsDisobey | Reason::kMotionMismatch;
-  return config_.judges_motion ? reasons : without(reasons, kNeedObedience);
-}
-
-/// Whether the feedback, read once a tick, follows the commands later than a sound drive's: it is old, whatever its
-/// stamp says.
-bool Supervisor::answers_late(const MeasuredLatency& measured) const noexcept {
-  return measured.drive_s > config_.model.drive.times.obeyed_within_s() + to_seconds(config_.tick);
 }
 
 /// Slowly until one of the scanners showed that the wheels go as far as they say.
@@ -176,7 +164,8 @@ Twist2 Supervisor::limited(Twist2 twist, const SafetyInput& input, Verdict& verd
   const MotionLimits& limits = config_.model.limits;
   const auto at_most = [&](double share, Reason reason) {
     if (share >= 1.0) return;
-    twist = scaled(twist, std::max(share, 0.0));
+    share = std::max(share, 0.0);
+    twist = {twist.v_mps * share, twist.w_radps * share};
     verdict.reasons |= reason;
   };
   at_most(share_within(twist, limits, 1.0), Reason::kSpeedLimit);

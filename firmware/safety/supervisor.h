@@ -10,7 +10,6 @@
 #include "firmware/safety/motion_model.h"
 #include "firmware/safety/reasons.h"
 #include "firmware/safety/stop_zone.h"
-#include "firmware/safety/unseen_walls.h"
 #include "firmware/safety/wheel_proof.h"
 #include "hal/types/laser_scan.h"
 #include "hal/types/operator_input.h"
@@ -81,12 +80,11 @@ struct SafetyInput {
   bool pose_doubtful = false;                                       ///< where it is was guessed for too long
 };
 
-/// The last to speak before the wheels: the follower asks, the supervisor permits. It judges the raw scans, the wanted
-/// twist and the ages of things, so that it does not depend on planner or tracker being right.
+/// The last to speak before the wheels: it judges raw scans, the wanted twist and ages, whatever planner and tracker
+/// say.
 ///
 /// Each scanner is judged by itself; free ground is what they prove together. A limit holds while its cause does. A
-/// fault stops; latched ones (ReasonKind), and on wires all, until next_mode() lets them go. Thread: the loop's; never
-/// allocates, never throws.
+/// fault stops; latched ones (ReasonKind), and on wires all, until next_mode() lets them go. Thread: the loop's.
 class Supervisor {
  public:
   explicit Supervisor(const SupervisorConfig& config);
@@ -100,11 +98,9 @@ class Supervisor {
  private:
   [[nodiscard]] Reason faults(const Twist2& wanted, const SafetyInput& input) noexcept;
   [[nodiscard]] Reason scan_faults(const SafetyInput& input) noexcept;
-  [[nodiscard]] Reason scan_faults(std::size_t scanner, const SafetyInput& input) noexcept;
+  [[nodiscard]] Reason faults_of(std::size_t scanner, const SafetyInput& input) noexcept;
   [[nodiscard]] OfEach<BlindGaps> gaps() const noexcept { return OfEach<BlindGaps>(std::span(gaps_)); }
   [[nodiscard]] Reason wheel_faults(const SafetyInput& input) const noexcept;
-  [[nodiscard]] Reason motion_faults(std::size_t scanner, const SafetyInput& input) noexcept;
-  [[nodiscard]] bool answers_late(const MeasuredLatency& measured) const noexcept;
   [[nodiscard]] double unproved_share(const Twist2& twist) const noexcept;
   /// Ticks that did not happen, in a row with those that were skipped just before.
   [[nodiscard]] int missed_in_a_row(Time now) noexcept;

@@ -25,8 +25,7 @@ constexpr Rolled operator-(const Rolled& a, const Rolled& b) noexcept {
   return std::max(std::fabs(way.left_m), std::fabs(way.right_m));
 }
 
-/// Ring of the wheels' latest readings: the way that each wheel had rolled at a moment. Thread: the loop's; memory is
-/// fixed.
+/// Ring of the wheels' latest readings: the way that each wheel had rolled at a moment.
 class WheelTravel {
  public:
   explicit WheelTravel(const DriveModel& drive) : drive_(drive) {}
@@ -40,8 +39,7 @@ class WheelTravel {
   /// The same, but up to 0.2 s beyond the newest reading at the speeds between the last two, and later still as that
   /// reading has it; nothing before the first.
   [[nodiscard]] std::optional<Rolled> expected_at(Time stamp) const noexcept;
-  /// Mean twist from a moment, at which the wheels had rolled so far, to the newest reading; none where that is no
-  /// later.
+  /// Mean twist from a moment, at which they had rolled so far, to the newest reading; none where that is no later.
   [[nodiscard]] Twist2 twist_since(Time stamp, const Rolled& rolled) const noexcept;
 
  private:

@@ -37,7 +37,6 @@ class ImageFile {
 /// A PNG (of any kind), PGM (P2, P5, 8 or 16 bit) or BMP (uncompressed) picture. Throws StartupError
 /// "FILE: cause; remedy" for anything else, or more than 3,000 million pixels.
 [[nodiscard]] std::unique_ptr<ImageFile> open_image(const std::filesystem::path& file);
-[[nodiscard]] std::unique_ptr<ImageFile> open_png(const std::filesystem::path& file);
 
 // Cells of a picture that are walls.
 

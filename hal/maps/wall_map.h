@@ -19,7 +19,9 @@ struct Disc {
   double radius_m = 0.0;
 };
 
-[[nodiscard]] double distance(Vec2 p, const WallSegment& segment) noexcept;
+[[nodiscard]] inline double distance(Vec2 p, const WallSegment& segment) noexcept {
+  return distance(p, nearest_on_segment(p, segment.from, segment.to));
+}
 
 /// Distance (m) along the ray (unit `direction`) to the shape; infinity when it misses, 0 from inside a disc.
 [[nodiscard]] double hit_range(Vec2 from, Vec2 direction, const WallSegment& segment) noexcept;

@@ -1,7 +1,6 @@
 #include "hal/sim/free_grid.h"
 
 #include <algorithm>
-#include <cmath>
 #include <queue>
 #include <utility>
 
@@ -61,22 +60,6 @@ FreeGrid::FreeGrid(const Walls& walls, double radius_m, Vec2 start, Vec2 goal) :
   for (std::int32_t index = 0; index < columns_ * rows_; ++index)
     state_[static_cast<std::size_t>(index)] = walls.distance(centre_of(index), radius_m) >= radius_m ? kFree : 0;
   flood_from_start();
-}
-
-std::int32_t FreeGrid::index_of(Vec2 p) const noexcept {
-  const double column = std::floor((p.x - low_.x) / cell_m_), row = std::floor((p.y - low_.y) / cell_m_);
-  if (!(column >= 0.0 && row >= 0.0 && column < columns_ && row < rows_)) return kOutside;
-  return static_cast<std::int32_t>(row) * columns_ + static_cast<std::int32_t>(column);
-}
-
-bool FreeGrid::free(Vec2 p) const noexcept {
-  const std::int32_t index = index_of(p);
-  return index != kOutside && state(index) != 0;
-}
-
-bool FreeGrid::reachable(Vec2 p) const noexcept {
-  const std::int32_t index = index_of(p);
-  return index != kOutside && (state(index) & kReached) != 0;
 }
 
 /// Visits the free cells round `index` with the step's length in cells; a diagonal needs both cells beside it free.
@@ -139,22 +122,6 @@ std::vector<Vec2> FreeGrid::cell_path() const {
   return path;
 }
 
-bool FreeGrid::line_is_free(Vec2 from, Vec2 to) const noexcept {
-  const auto samples = static_cast<int>(distance(from, to) / (0.5 * cell_m_)) + 1;
-  for (int k = 0; k <= samples; ++k)
-    if (!free(from + (to - from) * (static_cast<double>(k) / samples))) return false;
-  return true;
-}
-
-/// From each point goes straight to the last one that can be seen, then from there.
-std::vector<Vec2> FreeGrid::pulled(const std::vector<Vec2>& path) const {
-  std::vector<Vec2> taut{path.front()};
-  for (std::size_t k = 1; k + 1 < path.size(); ++k)
-    if (!line_is_free(taut.back(), path[k + 1])) taut.push_back(path[k]);
-  taut.push_back(path.back());
-  return taut;
-}
-
 double FreeGrid::shortest_path_m() const {
   if (!reachable(start_) || !reachable(goal_)) return kInfinity;
   std::vector<Vec2> path = cell_path();
@@ -191,14 +158,6 @@ std::array<WallSegment, 4> RobotBody::edges() const noexcept {
   const Vec2 rear_right = map_from_body * Vec2{-f.rear_m, -f.half_width_m};
   const Vec2 front_right = map_from_body * Vec2{f.front_m, -f.half_width_m};
   return {{{front_left, rear_left}, {rear_left, rear_right}, {rear_right, front_right}, {front_right, front_left}}};
-}
-
-bool RobotBody::in(const Zone& zone) const noexcept {
-  const double far = zone.reach_m + footprint.circumscribed_radius_m();
-  const Vec2 offset = map_from_robot.position() - zone.apex;
-  if (dot(offset, offset) > far * far) return false;
-  const auto sides = edges();
-  return std::any_of(sides.begin(), sides.end(), [&](const WallSegment& side) { return zone.meets(side); });
 }
 
 }  // namespace jaywalk::sim

@@ -20,23 +20,6 @@ constexpr int kPlacements = 20000;     // tries for one mover: 16 find room on m
 constexpr int kHeadingsAStep = 16;     // tries for a free heading before it looks again in the next step
 constexpr double kTouch = 0.01;        // m: nearer than this a mover walks on into nobody
 
-struct Row {
-  double t_s, id, x_m, y_m;
-};
-
-std::vector<Row> read_rows(const std::filesystem::path& file) {
-  LineReader reader(file, "write rows of t_s,id,x_m,y_m below a line that says so");
-  std::vector<Row> rows;
-  reader.read_table("t_s,id,x_m,y_m", 4, [&](const std::vector<double>& v, const std::string& line) {
-    const bool sound = !v.empty() && std::fabs(v[0]) < 1e7 && std::fabs(v[2]) < 1e6 && std::fabs(v[3]) < 1e6 &&
-                       v[1] == std::floor(v[1]) && std::fabs(v[1]) < 1e15;
-    if (!sound) reader.refuse("\"" + shown(line) + "\" is not four numbers");
-    rows.push_back({v[0], v[1], v[2], v[3]});
-  });
-  if (rows.empty()) reader.refuse("holds nobody");
-  return rows;
-}
-
 bool has_room(Vec2 p, const Ground& ground, double radius_m, std::span<const MoverTruth> placed) {
   const double to_walls = radius_m + kRoomToWalls;
   if (distance(p, ground.scenario.start.position()) < kRoomToRobot + radius_m) return false;
@@ -79,13 +62,6 @@ bool Wanderers::add(const Ground& ground, std::uint64_t seed, std::uint32_t id, 
   return true;
 }
 
-bool Wanderers::remove() noexcept {
-  if (movers_.empty()) return false;
-  movers_.pop_back();
-  minds_.pop_back();
-  return true;
-}
-
 void Wanderers::place(const WanderSpec& spec, Vec2 position, std::uint64_t seed, std::uint32_t id, Random& random) {
   const double heading = random.uniform(-kPi, kPi);
   movers_.push_back(
@@ -121,10 +97,7 @@ Wanderers::Blocker Wanderers::touched(std::size_t self, Vec2 next, const Surroun
   };
   if (std::any_of(movers_.begin(), movers_.end(), runs_into)) return Blocker::kOther;
   if (std::any_of(near.others.begin(), near.others.end(), runs_into)) return Blocker::kOther;
-  const double gap = near.robot.gap({next, mover.radius_m});
-  const bool into_robot = gap <= 0.0 && distance(next, near.robot.map_from_robot.position()) <
-                                            distance(mover.position, near.robot.map_from_robot.position());
-  return into_robot ? Blocker::kRobot : Blocker::kNothing;
+  return near.robot.is_run_into(mover.position, {next, mover.radius_m}) ? Blocker::kRobot : Blocker::kNothing;
 }
 
 void Wanderers::halt(std::size_t self, Blocker blocker) noexcept {
@@ -189,21 +162,19 @@ void Wanderers::step(double step_s, const RobotBody& robot, std::span<const Move
   }
 }
 
-RecordedMovers::RecordedMovers(std::span<const RecordedSpec> specs, std::uint32_t last_id)
-    : specs_(specs.begin(), specs.end()) {
-  for (const RecordedSpec& spec : specs_) load(spec);
-  for (Person& person : people_) person.truth.id = ++last_id;
-  present_.reserve(people_.size());
-}
-
 void RecordedMovers::load(const RecordedSpec& spec) {
+  LineReader reader(spec.file, "write rows of t_s,id,x_m,y_m below a line that says so");
   std::map<double, std::vector<Sample>> by_id;
   double begin = 1e9, end = -1e9;
-  for (const Row& row : read_rows(spec.file)) {
-    by_id[row.id].push_back({row.t_s, Vec2{row.x_m, row.y_m} + spec.offset});
-    begin = std::min(begin, row.t_s);
-    end = std::max(end, row.t_s);
-  }
+  reader.read_table("t_s,id,x_m,y_m", 4, [&](const std::vector<double>& v, const std::string& line) {
+    const bool sound = !v.empty() && std::fabs(v[0]) < 1e7 && std::fabs(v[2]) < 1e6 && std::fabs(v[3]) < 1e6 &&
+                       v[1] == std::floor(v[1]) && std::fabs(v[1]) < 1e15;
+    if (!sound) reader.refuse("\"" + shown(line) + "\" is not four numbers");
+    by_id[v[1]].push_back({v[0], Vec2{v[2], v[3]} + spec.offset});
+    begin = std::min(begin, v[0]);
+    end = std::max(end, v[0]);
+  });
+  if (by_id.empty()) reader.refuse("holds nobody");
   for (auto& [id, samples] : by_id) {
     std::stable_sort(samples.begin(), samples.end(), [](const Sample& a, const Sample& b) { return a.t_s < b.t_s; });
     const MoverTruth truth{.position = samples.front().position, .radius_m = spec.radius_m, .on_legs = spec.legs};

@@ -33,7 +33,12 @@ class Wanderers {
   [[nodiscard]] bool add(const Ground& ground, std::uint64_t seed, std::uint32_t id,
                          std::span<const MoverTruth> placed);
   /// Removes the newest mover. False where there is none.
-  [[nodiscard]] bool remove() noexcept;
+  [[nodiscard]] bool remove() noexcept {
+    if (movers_.empty()) return false;
+    movers_.pop_back();
+    minds_.pop_back();
+    return true;
+  }
 
   /// Moves all on by `step_s`. `others` are movers that do not wander.
   void step(double step_s, const RobotBody& robot, std::span<const MoverTruth> others) noexcept;
@@ -77,7 +82,11 @@ class Wanderers {
 class RecordedMovers {
  public:
   /// Reads t_s,id,x_m,y_m files; the simulation's movers get the ids after `last_id`. Throws StartupError.
-  RecordedMovers(std::span<const RecordedSpec> specs, std::uint32_t last_id);
+  RecordedMovers(std::span<const RecordedSpec> specs, std::uint32_t last_id) : specs_(specs.begin(), specs.end()) {
+    for (const RecordedSpec& spec : specs_) load(spec);
+    for (Person& person : people_) person.truth.id = ++last_id;
+    present_.reserve(people_.size());
+  }
 
   void place(double now_s, const RobotBody& robot) noexcept;
 

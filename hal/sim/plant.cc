@@ -17,13 +17,6 @@ Plant::Plant(const RobotModel& model, const Pose2& start, std::uint64_t seed, co
       right_{truth.right_wheel_radius_m.value_or(model.drive.wheel_radius_m)},
       random_(seed, Purpose::kSlip) {}
 
-void Plant::command(const WheelCommand& command, Time now) noexcept {
-  if (!std::isfinite(command.left_radps) || !std::isfinite(command.right_radps)) return;
-  left_.wanted = wiring_.left_motor * std::clamp(command.left_radps, -max_speed_, max_speed_);
-  right_.wanted = wiring_.right_motor * std::clamp(command.right_radps, -max_speed_, max_speed_);
-  commanded_ = now;
-}
-
 /// Speed' = (wanted - speed) / lag, bounded; the wheel's mean speed over the step turns it.
 double Plant::turn(Wheel& wheel, double step_s, bool alive) const noexcept {
   const double wanted = alive ? wheel.wanted : 0.0;
@@ -47,20 +40,6 @@ void Plant::step(double step_s, Time now) noexcept {
   const Vec2 moved = direction(map_from_robot_.heading + 0.5 * turned) * forward;
   map_from_robot_ = {map_from_robot_.x + moved.x, map_from_robot_.y + moved.y,
                      wrap_angle(map_from_robot_.heading + turned)};
-}
-
-/// An Ornstein-Uhlenbeck process, sampled exactly: it keeps its standard deviation whatever the step.
-void Plant::change_slip(double step_s) noexcept {
-  const double kept = exp(-step_s / kSlipTime);
-  const double fresh = slip_.std * std::sqrt(1.0 - kept * kept);
-  left_.slip = kept * left_.slip + fresh * random_.normal();
-  right_.slip = kept * right_.slip + fresh * random_.normal();
-}
-
-void Plant::stop_at(const Pose2& pose) noexcept {
-  map_from_robot_ = pose;
-  twist_ = {};
-  left_.speed = right_.speed = 0.0;
 }
 
 WheelState Plant::read_encoders(Time now) noexcept {

@@ -38,18 +38,33 @@ class Plant {
         const TrueRobot& truth = {});
 
   /// A command that is not finite is no command.
-  void command(const WheelCommand& command, Time now) noexcept;
+  void command(const WheelCommand& command, Time now) noexcept {
+    if (!std::isfinite(command.left_radps) || !std::isfinite(command.right_radps)) return;
+    left_.wanted = wiring_.left_motor * std::clamp(command.left_radps, -max_speed_, max_speed_);
+    right_.wanted = wiring_.right_motor * std::clamp(command.right_radps, -max_speed_, max_speed_);
+    commanded_ = now;
+  }
   /// Moves on by `step_s` (s), at most about 5 ms; `now` is the step's end.
   void step(double step_s, Time now) noexcept;
-  /// Draws new slip; `step_s` since the last time.
-  void change_slip(double step_s) noexcept;
+  /// Draws new slip, `step_s` since the last time: an Ornstein-Uhlenbeck process, sampled exactly, so that it keeps its
+  /// standard deviation whatever the step.
+  void change_slip(double step_s) noexcept {
+    const double kept = exp(-step_s / kSlipTime);
+    const double fresh = slip_.std * std::sqrt(1.0 - kept * kept);
+    left_.slip = kept * left_.slip + fresh * random_.normal();
+    right_.slip = kept * right_.slip + fresh * random_.normal();
+  }
   /// What share of its turning each wheel moves the robot by.
   void grip(double left, double right) noexcept { left_.grip = left, right_.grip = right; }
   void connect(const Miswiring& wiring) noexcept { wiring_ = wiring; }
   /// A person lifts the robot: nothing turns its wheels, and whatever they do moves nothing.
   void carry_to(const Pose2& pose) noexcept { map_from_robot_ = pose; }
   /// Something solid is in the way: body and wheels stand, the body at `pose`.
-  void stop_at(const Pose2& pose) noexcept;
+  void stop_at(const Pose2& pose) noexcept {
+    map_from_robot_ = pose;
+    twist_ = {};
+    left_.speed = right_.speed = 0.0;
+  }
   /// Reads the encoders: whole ticks as angles, and speeds from the ticks counted since the last reading.
   [[nodiscard]] WheelState read_encoders(Time now) noexcept;
 

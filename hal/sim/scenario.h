@@ -110,7 +110,7 @@ struct PoseSourceSpec {
 
 enum class StickKind { kStraight, kToGoal, kTable };
 
-/// A scripted person who drives by a stick (stick.h).
+/// A scripted person who drives by a stick (ScriptedStick).
 struct StickSpec {
   StickKind kind = StickKind::kStraight;
   StickUse steering = StickUse::kShared;

@@ -13,13 +13,6 @@
 namespace jaywalk::sim {
 namespace {
 
-/// Scanner with lost packets, a dirty window or a dead diode in a sector: its beams there say `says_m`.
-void lose(const BlankedSector& sector, float says_m, LaserScan& scan) noexcept {
-  constexpr double kSame_rad = 1e-6;  // single precision's angles: a beam on the sector's rim is in it
-  for (std::size_t k = 0; k < scan.beam_count; ++k)
-    if (sector.off_rad(scan.angle_rad(k)) <= kSame_rad) scan.range_m[k] = says_m;
-}
-
 /// Drops before the window: each beam by itself, in each scan anew.
 void rain_on(LaserScan& scan, Random& random) noexcept {
   constexpr double kShare = 0.005, kNearest_m = 0.1, kFarthest_m = 0.3;
@@ -55,56 +48,36 @@ LaserSim::LaserSim(const LaserModel& model, std::uint64_t seed, std::uint64_t in
     in_laser_[k] = direction(-0.5 * model.fov_rad + static_cast<double>(k) * step);
 }
 
-float LaserSim::measured(double range) noexcept {
-  const bool lost = loss_.uniform() < model_.drop_out;
-  const double noisy = range + model_.noise_m * noise_.normal();
-  if (lost || noisy < model_.range_min_m) return 0.0F;
-  return noisy <= model_.range_max_m ? static_cast<float>(noisy) : std::numeric_limits<float>::infinity();
-}
-
-void LaserSim::sweep(const Walls& walls, std::span<const Disc> movers, const Pose2& map_from_robot, Time now,
-                     LaserScan& scan) noexcept {
-  const Pose2 map_from_laser = map_from_robot * model_.robot_from_laser;
-  const Transform2 to_map(map_from_laser);
-  const Vec2 laser = map_from_laser.position();
-  for (std::size_t k = 0; k < in_map_.size(); ++k) {
-    in_map_[k] = to_map.rotate(in_laser_[k]);
-    range_[k] = walls.cast(laser, in_map_[k], model_.range_max_m);
-  }
-  for (const Disc& mover : movers) {
-    if (distance(laser, mover.centre) - mover.radius_m > model_.range_max_m) continue;
-    for (std::size_t k = 0; k < in_map_.size(); ++k)
-      range_[k] = std::min(range_[k], hit_range(laser, in_map_[k], mover));
-  }
-  write(now, Duration{0}, scan);
-}
-
 bool LaserSim::turn(const Walls& walls, std::span<const Disc> movers, const Pose2& map_from_robot, Time now,
                     LaserScan& scan) noexcept {
   if (measured_ == range_.size()) return false;
   const Pose2 map_from_laser = map_from_robot * model_.robot_from_laser;
   const Transform2 to_map(map_from_laser);
-  const double gone = std::min(1.0, to_seconds(now - began_) / to_seconds(turn_takes()));
+  const Vec2 laser = map_from_laser.position();
+  const double gone = model_.turns ? std::min(1.0, to_seconds(now - began_) / to_seconds(turn_takes())) : 1.0;
   const auto due = static_cast<std::size_t>(gone * static_cast<double>(range_.size() - 1)) + 1;
-  for (; measured_ < due; ++measured_) {
-    const Vec2 beam = to_map.rotate(in_laser_[measured_]);
-    double& range = range_[measured_];
-    range = walls.cast(map_from_laser.position(), beam, model_.range_max_m);
-    for (const Disc& mover : movers) range = std::min(range, hit_range(map_from_laser.position(), beam, mover));
+  for (std::size_t k = measured_; k < due; ++k) {
+    in_map_[k] = to_map.rotate(in_laser_[k]);
+    range_[k] = walls.cast(laser, in_map_[k], model_.range_max_m);
   }
+  for (const Disc& mover : movers) {
+    if (!model_.turns && distance(laser, mover.centre) - mover.radius_m > model_.range_max_m) continue;
+    for (std::size_t k = measured_; k < due; ++k) range_[k] = std::min(range_[k], hit_range(laser, in_map_[k], mover));
+  }
+  measured_ = std::max(measured_, due);
   const bool complete = measured_ == range_.size();
-  if (complete) write(began_, turn_takes(), scan);
+  if (complete) write(scan);
   return complete;
 }
 
-void LaserSim::write(Time stamp, Duration sweep, LaserScan& scan) noexcept {
-  scan.stamp = stamp;
+void LaserSim::write(LaserScan& scan) noexcept {
+  scan.stamp = began_;
   scan.beam_count = model_.beams;
   scan.first_angle_rad = static_cast<float>(-0.5 * model_.fov_rad);
   scan.angle_step_rad = static_cast<float>(model_.fov_rad / (model_.beams - 1));
   scan.range_min_m = static_cast<float>(model_.range_min_m);
   scan.range_max_m = static_cast<float>(model_.range_max_m);
-  scan.sweep = sweep;
+  scan.sweep = turn_takes();
   scan.period = duration_from_seconds(1.0 / model_.rate_hz);
   for (std::size_t k = 0; k < range_.size(); ++k) scan.range_m[k] = measured(range_[k]);
 }
@@ -121,7 +94,7 @@ Sensors::Sensors(const Scenario& scenario, std::uint64_t seed)
     const LaserModel laser = true_laser(scenario, k);
     const double phase = static_cast<double>(k) / static_cast<double>(count);  // no clock of theirs is another's
     scanners_.push_back(
-        {k, Metronome(laser.rate_hz, phase), LaserSim(laser, seed, k), Random(seed, Purpose::kRain, k), laser.turns});
+        {k, Metronome(laser.rate_hz, phase), LaserSim(laser, seed, k), Random(seed, Purpose::kRain, k)});
   }
 }
 
@@ -131,24 +104,6 @@ void Sensors::sense(World& world) noexcept {
   if (encoder_beat_.due(now) && !world.fault_active(FaultKind::kWheelsStale)) report(world);
   deliver_reports(now);
   if (fix_beat_.due(now) && pose_source_.enabled) locate(world.truth());
-}
-
-void Sensors::deliver_reports(Time now) noexcept {
-  if (under_way_.empty() || under_way_[0].stamp > now) return;
-  FixedVector<WheelState, kMostUnderWay> left;
-  for (const WheelState& reading : under_way_)
-    if (reading.stamp <= now)
-      wheels_ = reading;
-    else
-      (void)left.push_back(reading);
-  under_way_ = left;
-}
-
-void Sensors::report(World& world) noexcept {
-  WheelState reading = world.plant().read_encoders(world.now());
-  if (reports_.late_s > 0.0) reading.stamp += duration_from_seconds(reports_.late_s * delay_.uniform());
-  if (!under_way_.empty()) reading.stamp = std::max(reading.stamp, under_way_[under_way_.size() - 1].stamp);
-  (void)under_way_.push_back(reading);
 }
 
 void Sensors::sense(Scanner& scanner, const World& world) noexcept {
@@ -165,15 +120,9 @@ void Sensors::look(Scanner& scanner, const World& world) noexcept {
     scanner.scan.stamp = truth.now;
     return;
   }
-  if (scanner.turns) {
-    scanner.laser.begin_turn(truth.now);
-    scanner.turning = true;
-    turn(scanner, world);
-    return;
-  }
-  ++scanner.scan.sequence;
-  scanner.laser.sweep(world.walls(), world.movers_seen(), truth.map_from_robot, truth.now, scanner.scan);
-  spoil(scanner, world);
+  scanner.laser.begin_turn(truth.now);
+  scanner.turning = true;
+  turn(scanner, world);
 }
 
 void Sensors::turn(Scanner& scanner, const World& world) noexcept {
@@ -192,7 +141,7 @@ void Sensors::spoil(Scanner& scanner, const World& world) noexcept {
   for (const FaultSpec& fault : world.faults()) {
     const bool active = fault.is_of(scanner.index) && fault.active(to_seconds(world.now()));
     if (fault.kind == FaultKind::kBeamsLost && active)
-      lose(fault.lost, fault.claims_free ? std::numeric_limits<float>::infinity() : 0.0F, scan);
+      blank({&fault.lost, 1}, scan, fault.claims_free ? std::numeric_limits<float>::infinity() : 0.0F);
   }
   if (has(FaultKind::kRain)) rain_on(scan, scanner.rain);
   if (has(FaultKind::kScannerMirrored)) std::reverse(scan.range_m.begin(), scan.range_m.begin() + scan.beam_count);

@@ -4,7 +4,6 @@
 #include <span>
 #include <vector>
 
-#include "hal/hal.h"
 #include "hal/sim/random.h"
 #include "hal/sim/scenario.h"
 #include "hal/sim/walls.h"
@@ -23,23 +22,32 @@ class LaserSim {
   /// `index` tells apart the noise of several.
   LaserSim(const LaserModel& model, std::uint64_t seed, std::uint64_t index = 0);
 
-  /// Writes the sweep from where the robot stands; `movers` are round. Keeps scan.sequence.
+  /// Writes the sweep of a scanner that measures all beams at once, from where the robot stands. Keeps scan.sequence.
   void sweep(const Walls& walls, std::span<const Disc> movers, const Pose2& map_from_robot, Time now,
-             LaserScan& scan) noexcept;
+             LaserScan& scan) noexcept {
+    begin_turn(now);
+    turn(walls, movers, map_from_robot, now, scan);
+  }
 
-  /// From the first beam to the last of a scanner that turns.
+  /// From the first beam to the last: 0 of a scanner that does not turn.
   [[nodiscard]] Duration turn_takes() const noexcept {
-    return duration_from_seconds(model_.fov_rad / (2.0 * kPi) / model_.rate_hz);
+    return model_.turns ? duration_from_seconds(model_.fov_rad / (2.0 * kPi) / model_.rate_hz) : Duration{0};
   }
   /// Begins a turn: forgets what was measured.
   void begin_turn(Time now) noexcept { began_ = now, measured_ = 0; }
-  /// Measures the beams whose time has come. With the last it writes the scan, of the turn's begin, and returns true.
+  /// Measures the beams whose time has come; `movers` are round. With the last it writes the scan, of the turn's begin,
+  /// and returns true.
   bool turn(const Walls& walls, std::span<const Disc> movers, const Pose2& map_from_robot, Time now,
             LaserScan& scan) noexcept;
 
  private:
-  void write(Time stamp, Duration sweep, LaserScan& scan) noexcept;
-  [[nodiscard]] float measured(double range) noexcept;
+  void write(LaserScan& scan) noexcept;
+  [[nodiscard]] float measured(double range) noexcept {
+    const bool lost = loss_.uniform() < model_.drop_out;
+    const double noisy = range + model_.noise_m * noise_.normal();
+    if (lost || noisy < model_.range_min_m) return 0.0F;
+    return noisy <= model_.range_max_m ? static_cast<float>(noisy) : std::numeric_limits<float>::infinity();
+  }
 
   LaserModel model_;
   std::vector<Vec2> in_laser_;  ///< each beam's direction
@@ -83,7 +91,7 @@ class Sensors {
     Metronome beat;
     LaserSim laser;
     Random rain;
-    bool turns, turning = false;
+    bool turning = false;
     LaserScan scan{};
   };
   static void sense(Scanner& scanner, const World& world) noexcept;
@@ -91,8 +99,19 @@ class Sensors {
   static void turn(Scanner& scanner, const World& world) noexcept;
   static void spoil(Scanner& scanner, const World& world) noexcept;
   void locate(const Truth& truth) noexcept;
-  void report(World& world) noexcept;
-  void deliver_reports(Time now) noexcept;
+  void report(World& world) noexcept {
+    WheelState reading = world.plant().read_encoders(world.now());
+    if (reports_.late_s > 0.0) reading.stamp += duration_from_seconds(reports_.late_s * delay_.uniform());
+    if (!under_way_.empty()) reading.stamp = std::max(reading.stamp, under_way_.back().stamp);
+    (void)under_way_.push_back(reading);
+  }
+  void deliver_reports(Time now) noexcept {
+    std::size_t due = 0;  // stamps do not fall
+    while (due < under_way_.size() && under_way_[due].stamp <= now) wheels_ = under_way_[due++];
+    if (due == 0) return;
+    std::copy(under_way_.begin() + due, under_way_.end(), under_way_.begin());
+    under_way_.truncate(under_way_.size() - due);
+  }
 
   ReportSpec reports_;
   PoseSourceSpec pose_source_;

@@ -9,30 +9,19 @@
 namespace jaywalk::sim {
 namespace {
 
-class SimLaser final : public LaserScanner {
+/// A device whose newest reading stays as it is while the world moves on.
+template <class Device, class Reading>
+class SimSource final : public Device {
  public:
-  SimLaser(const Sensors& sensors, std::size_t index) : sensors_(sensors), index_(index) {}
-  const LaserScan& latest() noexcept override {
-    const LaserScan& scan = sensors_.scan(index_);
-    if (given_.sequence != scan.sequence) given_ = scan;
+  explicit SimSource(const Reading& newest) : newest_(newest) {}
+  const Reading& latest() noexcept override {
+    if (given_.sequence != newest_.sequence) given_ = newest_;
     return given_;
   }
 
  private:
-  const Sensors& sensors_;
-  std::size_t index_;
-  LaserScan given_;  ///< stays as it is while the world moves on
-};
-
-class SimDrive final : public DriveBase {
- public:
-  SimDrive(World& world, const Sensors& sensors) : world_(world), sensors_(sensors) {}
-  WheelState latest() noexcept override { return sensors_.wheels(); }
-  void command(const WheelCommand& command) noexcept override { world_.plant().command(command, world_.now()); }
-
- private:
-  World& world_;
-  const Sensors& sensors_;
+  const Reading& newest_;
+  Reading given_;
 };
 
 class SimPanel final : public OperatorPanel {
@@ -60,35 +49,6 @@ class SimPanel final : public OperatorPanel {
   std::optional<ScriptedStick> stick_;
 };
 
-class SimPoseSource final : public PoseSource {
- public:
-  explicit SimPoseSource(const Sensors& sensors) : sensors_(sensors) {}
-  const OutsideFix& latest() noexcept override {
-    if (given_.sequence != sensors_.fix().sequence) given_ = sensors_.fix();
-    return given_;
-  }
-
- private:
-  const Sensors& sensors_;
-  OutsideFix given_;
-};
-
-class SimClock final : public Clock {
- public:
-  SimClock(World& world, Sensors& sensors) : world_(world), sensors_(sensors) {}
-  Time now() noexcept override { return world_.now(); }
-  void sleep_until(Time wake) noexcept override {
-    while (world_.now() < wake) {
-      world_.step();
-      sensors_.sense(world_);
-    }
-  }
-
- private:
-  World& world_;
-  Sensors& sensors_;
-};
-
 /// Segments as they are; discs as eight-sided outlines.
 std::vector<WallSegment> drawn(const Walls& walls) {
   constexpr int kSides = 8;
@@ -102,16 +62,14 @@ std::vector<WallSegment> drawn(const Walls& walls) {
 
 }  // namespace
 
-struct Simulation::State {
+struct Simulation::State final : DriveBase, Clock {
   const Scenario scenario;
   const std::uint64_t seed;
   World world;
   Sensors sensors;
-  std::vector<SimLaser> lasers;
-  SimDrive drive{world, sensors};
+  std::vector<SimSource<LaserScanner, LaserScan>> lasers;
   SimPanel panel;
-  SimPoseSource pose_source{sensors};
-  SimClock clock{world, sensors};
+  SimSource<PoseSource, OutsideFix> pose_source{sensors.fix()};
   std::vector<WallSegment> drawn_walls;
 
   State(const Scenario& given, std::uint64_t random_seed)
@@ -121,8 +79,18 @@ struct Simulation::State {
         sensors(scenario, seed),
         panel(world, scenario, seed),
         drawn_walls(drawn(world.walls())) {
-    for (std::size_t k = 0; k < scenario.model.lasers().size(); ++k) lasers.emplace_back(sensors, k);
+    for (std::size_t k = 0; k < scenario.model.lasers().size(); ++k) lasers.emplace_back(sensors.scan(k));
     sensors.sense(world);
+  }
+
+  WheelState latest() noexcept override { return sensors.wheels(); }
+  void command(const WheelCommand& command) noexcept override { world.plant().command(command, world.now()); }
+  Time now() noexcept override { return world.now(); }
+  void sleep_until(Time wake) noexcept override {
+    while (world.now() < wake) {
+      world.step();
+      sensors.sense(world);
+    }
   }
 };
 
@@ -132,7 +100,7 @@ Simulation::~Simulation() = default;
 
 Hal Simulation::hal() noexcept {
   State& s = *state_;
-  Hal hal{s.lasers.front(), s.drive, s.panel, s.pose_source, s.clock};
+  Hal hal{s.lasers.front(), s, s.panel, s.pose_source, s};
   for (std::size_t k = 1; k < s.lasers.size(); ++k) (void)hal.other_lasers.push_back(&s.lasers[k]);
   return hal;
 }

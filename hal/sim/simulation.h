@@ -18,7 +18,7 @@ struct MoverTruth {
   Vec2 velocity{};
   double heading = 0.0;
   double radius_m = 0.0;
-  bool on_legs = false;  ///< what the laser sees of it (legs.h); all else takes it for round
+  bool on_legs = false;  ///< what the laser sees of it (Legs); all else takes it for round
   bool forced = false;   ///< true from the moment the robot made it turn until it walks again
 };
 

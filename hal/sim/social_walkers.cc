@@ -17,10 +17,6 @@ constexpr double kLeast_m = 0.01;                                     // outline
 
 }  // namespace
 
-Vec2 towards(Vec2 wished_mps, Vec2 velocity_mps) noexcept {
-  return (wished_mps - velocity_mps) * (1.0 / kRelaxation_s);
-}
-
 /// b is the semi-minor axis of the ellipse through `apart_m` with foci at the other pedestrian now and Delta t later;
 /// the force is -grad V0 exp(-b / sigma).
 Vec2 away_from_walker(Vec2 apart_m, Vec2 velocity_mps) noexcept {
@@ -36,8 +32,6 @@ Vec2 away_from_wall(Vec2 apart_m) noexcept {
   const double gap = norm(apart_m);
   return apart_m * (kWallPotential_m2ps2 / kWallRange_m * exp(-gap / kWallRange_m) / gap);
 }
-
-bool in_sight(Vec2 ahead, Vec2 to) noexcept { return dot(ahead, to) >= norm(to) * cos(kHalfSight_rad); }
 
 Vec2 as_seen(Vec2 force, Vec2 ahead) noexcept { return in_sight(ahead, force * -1.0) ? force : force * kUnseen; }
 
@@ -217,8 +211,7 @@ void SocialWalkers::walk(std::size_t self, double step_s, const RobotBody& robot
   const double most_mps = social::kMostSpeed * minds_[self].wished_mps;
   Vec2 velocity = mover.velocity + minds_[self].force * step_s;
   if (norm(velocity) > most_mps) velocity = velocity * (most_mps / norm(velocity));
-  const Vec2 next = mover.position + velocity * step_s, middle = robot.map_from_robot.position();
-  if (robot.gap({next, mover.radius_m}) <= 0.0 && distance(next, middle) < distance(mover.position, middle)) {
+  if (robot.is_run_into(mover.position, {mover.position + velocity * step_s, mover.radius_m})) {
     bumped_robot_ = true;
     velocity = {};
   }

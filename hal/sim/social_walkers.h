@@ -25,13 +25,17 @@ inline constexpr double kRelaxation_s = 0.5;
 inline constexpr double kHalfSight_rad = 100.0 / 180.0 * kPi;
 
 /// Force towards a wished velocity (eq. 2).
-[[nodiscard]] Vec2 towards(Vec2 wished_mps, Vec2 velocity_mps) noexcept;
+[[nodiscard]] inline Vec2 towards(Vec2 wished_mps, Vec2 velocity_mps) noexcept {
+  return (wished_mps - velocity_mps) * (1.0 / kRelaxation_s);
+}
 /// Repulsive force of another pedestrian that moves at `velocity_mps` (eqs. 3 and 4). `apart_m`: from it to this one.
 [[nodiscard]] Vec2 away_from_walker(Vec2 apart_m, Vec2 velocity_mps) noexcept;
 /// Force away from a wall's nearest point (eq. 5). `apart_m`: from that point to the pedestrian.
 [[nodiscard]] Vec2 away_from_wall(Vec2 apart_m) noexcept;
 /// Returns whether a pedestrian that looks along the unit vector `ahead` has `to` in its field of view.
-[[nodiscard]] bool in_sight(Vec2 ahead, Vec2 to) noexcept;
+[[nodiscard]] inline bool in_sight(Vec2 ahead, Vec2 to) noexcept {
+  return dot(ahead, to) >= norm(to) * cos(kHalfSight_rad);
+}
 /// `force` itself, or half of it when its source lies out of sight (eqs. 8 and 9).
 [[nodiscard]] Vec2 as_seen(Vec2 force, Vec2 ahead) noexcept;
 /// `apart_m` between centres less both radii, 1 cm at least.

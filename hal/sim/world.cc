@@ -68,41 +68,19 @@ World::World(const Scenario& scenario, std::uint64_t seed)
 }
 
 const Scenario& World::with_free_places(const Scenario& scenario) const {
-  const std::string of_map = " of " + scenario.map_file.string();
-  if (off_the_map(walls_.bounds(), scenario.start.position())) {
-    throw StartupError(scenario.start_place + "the robot's start lies more than 50 m outside the walls" + of_map,
-                       "move robot.start, in metres in the map's frame");
-  }
-  if (off_the_map(walls_.bounds(), scenario.goal)) {
-    throw StartupError(scenario.goal_place + "the goal lies more than 50 m outside the walls" + of_map,
-                       "move robot.goal, in metres in the map's frame");
-  }
-  if (walls_.clearance(footprint_, scenario.start) <= 0.0)
-    throw StartupError(scenario.start_place + "the robot's start lies in a wall" + of_map, "move robot.start");
+  const std::string start = scenario.start_place + "the robot's start lies ",
+                    goal = scenario.goal_place + "the goal lies ";
+  const auto refuse = [&](const std::string& cause, const std::string& remedy) {
+    throw StartupError(cause + " of " + scenario.map_file.string(), remedy);
+  };
+  if (off_the_map(walls_.bounds(), scenario.start.position()))
+    refuse(start + "more than 50 m outside the walls", "move robot.start, in metres in the map's frame");
+  if (off_the_map(walls_.bounds(), scenario.goal))
+    refuse(goal + "more than 50 m outside the walls", "move robot.goal, in metres in the map's frame");
+  if (walls_.clearance(footprint_, scenario.start) <= 0.0) refuse(start + "in a wall", "move robot.start");
   const double radius = footprint_.inscribed_radius_m();
-  if (walls_.distance(scenario.goal, radius) < radius)
-    throw StartupError(scenario.goal_place + "the goal lies in a wall or too near one" + of_map, "move robot.goal");
+  if (walls_.distance(scenario.goal, radius) < radius) refuse(goal + "in a wall or too near one", "move robot.goal");
   return scenario;
-}
-
-/// The robot's pose stands in for the scenario's start, so that kRoomToRobot (movers.cc) holds from where it is now.
-bool World::add_walker(Scenario scenario, std::uint64_t seed) {
-  scenario.start = plant_.map_from_robot();
-  legs_.emplace_back();
-  return wanderers_.add({scenario, walls_, grid_}, seed, static_cast<std::uint32_t>(legs_.size()), movers_);
-}
-
-bool World::fault_active(FaultKind kind, std::optional<std::size_t> scanner) const noexcept {
-  return std::any_of(faults_.begin(), faults_.end(), [&](const FaultSpec& fault) {
-    return fault.kind == kind && (!scanner || fault.is_of(*scanner)) && fault.active(to_seconds(truth_.now));
-  });
-}
-
-double World::gap_to(std::span<const MoverTruth> movers) const noexcept {
-  double nearest = std::numeric_limits<double>::infinity();
-  const RobotBody robot = body();
-  for (const MoverTruth& m : movers) nearest = std::min(nearest, robot.gap({m.position, m.radius_m}));
-  return nearest;
 }
 
 void World::touch() noexcept {
@@ -126,12 +104,6 @@ void World::keep_out_of_solids(const Pose2& before) noexcept {
   if (walls_.clearance(footprint_, after) > 0.0 && gap_to_solid_mover() > 0.0) return;
   touch();
   plant_.stop_at(before);
-}
-
-void World::gather_movers() noexcept {
-  movers_.assign(wanderers_.movers().begin(), wanderers_.movers().end());
-  movers_.insert(movers_.end(), recorded_.movers().begin(), recorded_.movers().end());
-  movers_.insert(movers_.end(), social_.movers().begin(), social_.movers().end());
 }
 
 void World::move_movers() noexcept {

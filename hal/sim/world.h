@@ -46,7 +46,12 @@ class World {
   void begin_fault(FaultKind kind, double for_s) {
     faults_.push_back({.at_s = to_seconds(truth_.now), .for_s = for_s, .kind = kind, .way = {1.0, 0.0, 1.0}});
   }
-  [[nodiscard]] bool add_walker(Scenario scenario, std::uint64_t seed);
+  /// The robot's pose stands in for the scenario's start, so that kRoomToRobot (movers.cc) holds from where it is now.
+  [[nodiscard]] bool add_walker(Scenario scenario, std::uint64_t seed) {
+    scenario.start = plant_.map_from_robot();
+    legs_.emplace_back();
+    return wanderers_.add({scenario, walls_, grid_}, seed, static_cast<std::uint32_t>(legs_.size()), movers_);
+  }
   [[nodiscard]] bool remove_walker() noexcept { return wanderers_.remove(); }
 
   /// Moves on by kWorldStep.
@@ -61,11 +66,20 @@ class World {
   [[nodiscard]] const Truth& truth() const noexcept { return truth_; }
   [[nodiscard]] std::span<const FaultSpec> faults() const noexcept { return faults_; }
   /// Whether such a fault is there now: any, or one of `scanner`, counted from 0.
-  [[nodiscard]] bool fault_active(FaultKind kind, std::optional<std::size_t> scanner = {}) const noexcept;
+  [[nodiscard]] bool fault_active(FaultKind kind, std::optional<std::size_t> scanner = {}) const noexcept {
+    return std::any_of(faults_.begin(), faults_.end(), [&](const FaultSpec& fault) {
+      return fault.kind == kind && (!scanner || fault.is_of(*scanner)) && fault.active(to_seconds(truth_.now));
+    });
+  }
 
  private:
   [[nodiscard]] RobotBody body() const noexcept { return {footprint_, plant_.map_from_robot()}; }
-  [[nodiscard]] double gap_to(std::span<const MoverTruth> movers) const noexcept;
+  [[nodiscard]] double gap_to(std::span<const MoverTruth> movers) const noexcept {
+    double nearest = kInfinity;
+    const RobotBody robot = body();
+    for (const MoverTruth& m : movers) nearest = std::min(nearest, robot.gap({m.position, m.radius_m}));
+    return nearest;
+  }
   void connect_plant() noexcept;
   /// Moves a carried robot by the part of its way that falls into this step.
   void carry_robot() noexcept;
@@ -74,7 +88,11 @@ class World {
   [[nodiscard]] double gap_to_solid_mover() const noexcept {
     return std::min(gap_to(wanderers_.movers()), gap_to(social_.movers()));
   }
-  void gather_movers() noexcept;
+  void gather_movers() noexcept {
+    movers_.assign(wanderers_.movers().begin(), wanderers_.movers().end());
+    movers_.insert(movers_.end(), recorded_.movers().begin(), recorded_.movers().end());
+    movers_.insert(movers_.end(), social_.movers().begin(), social_.movers().end());
+  }
   void move_movers() noexcept;
   void see_movers() noexcept;
   void judge_gaps() noexcept;

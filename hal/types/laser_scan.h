@@ -80,16 +80,12 @@ class OfEach {
     return scanner == 0 ? *first_ : others_[scanner - 1];
   }
 
-  class Iterator {
-   public:
-    Iterator(const OfEach& each, std::size_t at) noexcept : each_(&each), at_(at) {}
-    const T& operator*() const noexcept { return (*each_)[at_]; }
-    Iterator& operator++() noexcept { return ++at_, *this; }
-    bool operator!=(const Iterator& other) const noexcept { return at_ != other.at_; }
-
-   private:
-    const OfEach* each_;
-    std::size_t at_;
+  struct Iterator {
+    const OfEach& each;
+    std::size_t at;
+    const T& operator*() const noexcept { return each[at]; }
+    Iterator& operator++() noexcept { return ++at, *this; }
+    bool operator!=(const Iterator& other) const noexcept { return at != other.at; }
   };
   [[nodiscard]] Iterator begin() const noexcept { return {*this, 0}; }
   [[nodiscard]] Iterator end() const noexcept { return {*this, size()}; }

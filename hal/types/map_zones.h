@@ -33,6 +33,16 @@ struct MapZone {
   return inside ? -least : least;
 }
 
+/// The smallest box that holds all keep-out zones; empty without any.
+[[nodiscard]] inline Box2 box_of_keep_out(std::span<const MapZone> zones) noexcept {
+  Box2 all;
+  for (const MapZone& zone : zones) {
+    if (zone.kind != ZoneKind::kKeepOut) continue;
+    for (const Vec2 corner : zone.corners) all.hold(corner);
+  }
+  return all;
+}
+
 /// Whether a place lies in a keep-out zone or within `within_m` of one.
 [[nodiscard]] inline bool is_kept_out(std::span<const MapZone> zones, Vec2 p_in_map, double within_m) noexcept {
   return std::any_of(zones.begin(), zones.end(), [&](const MapZone& zone) {

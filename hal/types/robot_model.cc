@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace jaywalk {
 namespace {
@@ -34,34 +33,15 @@ double BlankedSector::off_rad(double direction_rad) const noexcept {
   return std::min(past_from - width, 2.0 * kPi - past_from);
 }
 
-void blank(const Blanking& sectors, LaserScan& scan) noexcept {
+void blank(std::span<const BlankedSector> sectors, LaserScan& scan, float says_m) noexcept {
   if (sectors.empty()) return;
   const std::size_t beams = std::min<std::size_t>(scan.beam_count, kMaxBeams);
   for (std::size_t k = 0; k < beams; ++k) {
     const double angle = scan.angle_rad(k);
     const bool own = std::any_of(sectors.begin(), sectors.end(),
                                  [&](const BlankedSector& sector) { return sector.off_rad(angle) <= kSame_rad; });
-    if (own) scan.range_m[k] = -std::numeric_limits<float>::infinity();
+    if (own) scan.range_m[k] = says_m;
   }
-}
-
-double Footprint::inscribed_radius_m() const { return std::min({front_m, rear_m, half_width_m}); }
-
-double Footprint::distance_to(Vec2 p) const {
-  const double beyond_x = std::max({p.x - front_m, -rear_m - p.x, 0.0});
-  const double beyond_y = std::max(std::fabs(p.y) - half_width_m, 0.0);
-  return norm({beyond_x, beyond_y});
-}
-
-double DriveTimes::obeyed_within_s() const {
-  constexpr double kTickAndBus_s = 0.13;  // two ticks of 20 Hz and a frame that waits for others
-  return kTickAndBus_s + response_s + report_s + late_s;
-}
-
-double DriveTimes::slower_s(double tick_s) const {
-  const DriveTimes usual;
-  return std::max(response_s - usual.response_s, 0.0) + std::max(report_s - std::max(usual.report_s, tick_s), 0.0) +
-         late_s;
 }
 
 std::string scanner_name(const RobotModel& model, std::size_t scanner) {

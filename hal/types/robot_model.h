@@ -24,8 +24,9 @@ struct BlankedSector {
 
 using Blanking = FixedVector<BlankedSector, 16>;
 
-/// Ranges of beams that look into a sector become minus infinity (LaserScan): they measured the robot.
-void blank(const Blanking& sectors, LaserScan& scan) noexcept;
+/// Ranges of beams that look into a sector become `says_m`; minus infinity (LaserScan): they measured the robot.
+void blank(std::span<const BlankedSector> sectors, LaserScan& scan,
+           float says_m = -std::numeric_limits<float>::infinity()) noexcept;
 
 /// Rules of the supervisor's stop zone (T: double), which roll-outs (float) foresee.
 template <class T>
@@ -51,11 +52,15 @@ struct Footprint {
   double half_width_m = 0.0;
 
   /// Largest circle about the axle's middle that fits inside.
-  [[nodiscard]] double inscribed_radius_m() const;
+  [[nodiscard]] double inscribed_radius_m() const { return std::min({front_m, rear_m, half_width_m}); }
   /// Smallest circle about the axle's middle that holds it.
   [[nodiscard]] double circumscribed_radius_m() const { return norm({std::max(front_m, rear_m), half_width_m}); }
   /// Distance (m) from a point in the robot's frame to the rectangle; 0 inside.
-  [[nodiscard]] double distance_to(Vec2 p_in_robot) const;
+  [[nodiscard]] double distance_to(Vec2 p_in_robot) const {
+    const double beyond_x = std::max({p_in_robot.x - front_m, -rear_m - p_in_robot.x, 0.0});
+    const double beyond_y = std::max(std::fabs(p_in_robot.y) - half_width_m, 0.0);
+    return norm({beyond_x, beyond_y});
+  }
 };
 
 /// Report period, lateness and response time of a drive: stated by its maker or measured.
@@ -67,9 +72,16 @@ struct DriveTimes {
   /// Age (s) up to which the newest report is no fault: one may be lost, and the next one late.
   [[nodiscard]] double oldest_report_s() const { return 2.0 * report_s + std::max(late_s, 0.5 * report_s); }
   /// Longest time from a command until a sound drive's newest report shows it obeyed, ramps apart, s.
-  [[nodiscard]] double obeyed_within_s() const;
+  [[nodiscard]] double obeyed_within_s() const {
+    constexpr double kTickAndBus_s = 0.13;  // two ticks of 20 Hz and a frame that waits for others
+    return kTickAndBus_s + response_s + report_s + late_s;
+  }
   /// Time (s) by which that is longer than of a drive that reports and obeys as usual, in a loop of period `tick_s`.
-  [[nodiscard]] double slower_s(double tick_s) const;
+  [[nodiscard]] double slower_s(double tick_s) const {
+    const DriveTimes usual;
+    return std::max(response_s - usual.response_s, 0.0) + std::max(report_s - std::max(usual.report_s, tick_s), 0.0) +
+           late_s;
+  }
 };
 
 struct DriveModel {

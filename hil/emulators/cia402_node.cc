@@ -221,9 +221,7 @@ void Cia402Node::say(Time now) noexcept {
 }
 
 void Cia402Node::send(std::uint32_t id, std::uint64_t word, std::uint8_t size) noexcept {
-  CanFrame frame;
-  frame.id = id;
-  frame.size = size;
+  CanFrame frame{.id = id, .size = size};
   wire::put_little_endian(word, frame.bytes);
   MotorNode::send(frame);
 }

@@ -1,11 +1,10 @@
-#include "hil/emulators/drive_objects.h"
-
 #include <algorithm>
 #include <array>
 #include <cassert>
 #include <initializer_list>
 
 #include "drivers/wire/byte_reader.h"
+#include "hil/emulators/cia402_node.h"
 
 namespace jaywalk::emulators {
 
@@ -28,10 +27,7 @@ bool is_transmit_id(ObjectAddress address) noexcept {
 
 CanFrame answer_frame(std::uint8_t node, const CanFrame& request, std::uint8_t command, std::uint32_t word,
                       std::uint8_t size = 8) noexcept {
-  CanFrame frame;
-  frame.id = 0x580U + node;
-  frame.size = size;
-  frame.bytes = request.bytes;  // the object's address stays
+  CanFrame frame{.id = 0x580U + node, .size = size, .bytes = request.bytes};  // the object's address stays
   frame.bytes[0] = command;
   wire::put_little_endian(word, std::span(frame.bytes).subspan(4));
   return frame;

@@ -93,9 +93,7 @@ void OdriveNode::say(Time now) noexcept {
 }
 
 void OdriveNode::send(std::uint32_t command, std::uint32_t first, std::uint32_t second) noexcept {
-  CanFrame frame;
-  frame.id = static_cast<std::uint32_t>(node_) << 5U | command;
-  frame.size = 8;
+  CanFrame frame{.id = static_cast<std::uint32_t>(node_) << 5U | command, .size = 8};
   wire::put_little_endian(first | std::uint64_t{second} << 32U, frame.bytes);
   MotorNode::send(frame);
 }
@@ -202,10 +200,7 @@ std::string_view VescNode::state_name() const noexcept {
 }
 
 void VescNode::send(std::uint32_t command, std::uint8_t id, std::span<const std::uint8_t> bytes) noexcept {
-  CanFrame frame;
-  frame.id = command << 8U | id;
-  frame.extended = true;
-  frame.size = static_cast<std::uint8_t>(bytes.size());
+  CanFrame frame{.id = command << 8U | id, .extended = true, .size = static_cast<std::uint8_t>(bytes.size())};
   std::copy(bytes.begin(), bytes.end(), frame.bytes.begin());
   MotorNode::send(frame);
 }

@@ -1,11 +1,10 @@
-#include "hil/emulators/network_scanners.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 
 #include "hal/types/trig.h"
+#include "hil/emulators/scanners.h"
 
 namespace jaywalk::emulators {
 namespace {

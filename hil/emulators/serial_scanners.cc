@@ -1,9 +1,8 @@
-#include "hil/emulators/serial_scanners.h"
-
 #include <array>
 #include <cmath>
 
 #include "hal/types/trig.h"
+#include "hil/emulators/scanners.h"
 
 namespace jaywalk::emulators {
 namespace {

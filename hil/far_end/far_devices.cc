@@ -7,8 +7,7 @@
 #include "hal/types/errors.h"
 #include "hil/emulators/arcos_board.h"
 #include "hil/emulators/cia402_node.h"
-#include "hil/emulators/network_scanners.h"
-#include "hil/emulators/serial_scanners.h"
+#include "hil/emulators/scanners.h"
 
 namespace jaywalk::rig {
 namespace {

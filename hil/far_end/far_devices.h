@@ -1,5 +1,6 @@
 #pragma once
 // Emulated drives and scanners at the far end of the wires, as a robot file has them.
+
 #include <array>
 #include <memory>
 #include <vector>

@@ -146,7 +146,7 @@ InProcessRobot::InProcessRobot(RobotFile file, const sim::Scenario& scenario, st
       drive_(make_drive(file_.drive, bus_, clock)),
       controls_(file_, *drive_, clock, [] { return std::string(); }),
       runner_(file_.setup, hal(), {run.out}, observer_, run.make_planner),
-      guard_(no_brake_, clock, std::chrono::seconds(1)),
+      guard_([] {}, clock, std::chrono::seconds(1)),
       loop_(runner_, {*drive_, lasers_, bus_, controls_.resets()}, controls_.desk(), clock, guard_, observer_) {
   messages_.reserve(kMostMessages);
 }

@@ -165,7 +165,6 @@ class InProcessRobot {
   std::unique_ptr<WiredDrive> drive_;
   OperatorControls controls_;
   LoopRunner runner_;
-  FrameBrake no_brake_{bus_, {}};
   StallGuard guard_;  ///< not started: time may stand still here
   RobotLoop loop_;
   std::vector<Time> messages_;

@@ -17,11 +17,9 @@ constexpr Reason kBlind = Reason::kScanInvalid | Reason::kSightLost;
 /// What another master would tell the left drive.
 void say_setpoint(FaultBench& bench) {
   const DriveKind kind = bench.kind();
-  CanFrame frame;
-  frame.size = kind == DriveKind::kVesc ? 4 : kind == DriveKind::kCia402 ? 6 : 8;
-  frame.extended = kind == DriveKind::kVesc;
-  frame.id = kind == DriveKind::kVesc ? 0x317 : kind == DriveKind::kOdrive ? 3U << 5U | 0x0DU : 0x202;
-  bench.say_as_stranger(frame);
+  if (kind == DriveKind::kVesc) return bench.say_as_stranger({.id = 0x317, .extended = true, .size = 4});
+  if (kind == DriveKind::kOdrive) return bench.say_as_stranger({.id = 3U << 5U | 0x0DU, .size = 8});
+  bench.say_as_stranger({.id = 0x202, .size = static_cast<std::uint8_t>(kind == DriveKind::kCia402 ? 6 : 8)});
 }
 
 void say_heartbeat(FaultBench& bench) { bench.say_as_stranger({.id = 0x701, .size = 1, .bytes = {0x05}}); }
@@ -216,8 +214,8 @@ const std::vector<FaultCase> kRows{
     of_two(1, {"rear_late", scanner<ScannerFault::kDelayed, 1>, Reason::kScanStale, scans}),
     of_two(1, {"rear_covered", [](FaultBench& b) { b.robot().far_end().scanner(1).lose_sector(-kPi, 3.1); }, kBlind,
                next_scan}),
-    {"plan_absent", [](FaultBench& b) { b.planner().order(PlanFault::kNoMore); }, Reason::kPlanStale, plans,
-     RollsOut::kNone, Outcome::kStopped},
+    {"plan_absent", [](FaultBench& b) { b.planner().end(); }, Reason::kPlanStale, plans, RollsOut::kNone,
+     Outcome::kStopped},
     {"drive_unplugged_left", [](FaultBench& b) { b.drive().pull_cable(); }, kFeedback, feedback, kMotors,
      Outcome::kLatched, "drive_unplugged_right"},
     {"drive_fault_left", [](FaultBench& b) { b.drive().raise_fault(0x21); }, Reason::kDrive, at_once, kMotors,

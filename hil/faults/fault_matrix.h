@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <functional>
-#include <limits>
 #include <span>
 #include <vector>
 
@@ -13,14 +12,12 @@
 
 namespace jaywalk::faults {
 
-enum class PlanFault { kNone, kNoMore, kNotFinite };
-
 /// Plans a straight line to the goal, a point every decimetre. The matrix measures what stops a robot, in a hall where
 /// nothing is in the way; the grid planner would answer the same at a hundred times the price.
 class StraightPlanner final : public Planner {
  public:
   void submit(const PlanRequest& request) noexcept override {
-    if (fault_ == PlanFault::kNoMore) return;
+    if (ended_) return;
     plan_.stamp = request.stamp;
     ++plan_.sequence;
     plan_.status = PlanStatus::kOk;
@@ -34,7 +31,8 @@ class StraightPlanner final : public Planner {
   [[nodiscard]] const Plan& collect() noexcept override { return plan_; }
   [[nodiscard]] FieldView view_field() const override { return {}; }
   [[nodiscard]] const char* backend() const noexcept override { return "straight"; }
-  void order(PlanFault fault) noexcept { fault_ = fault; }
+  /// No plan comes any more.
+  void end() noexcept { ended_ = true; }
 
  private:
   static constexpr double kStep_m = 0.1;
@@ -47,15 +45,13 @@ class StraightPlanner final : public Planner {
     for (std::int32_t j = 0; j < kSide; ++j) {
       for (std::int32_t i = 0; i < kSide; ++i) {
         const double away = norm({i + 0.5 - kSide / 2, j + 0.5 - kSide / 2}) / request.speed_mps;
-        to_go_s_[static_cast<std::size_t>(j * kSide + i)] =
-            fault_ == PlanFault::kNotFinite ? std::numeric_limits<float>::quiet_NaN() : static_cast<float>(away);
+        to_go_s_[static_cast<std::size_t>(j * kSide + i)] = static_cast<float>(away);
       }
     }
     return {low_x, low_y, 1.0F, kSide, false, surface_.data(), unseen_.data(), to_go_s_.data()};
   }
 
   void add(Vec2 point) noexcept {
-    if (fault_ == PlanFault::kNotFinite) point.y = std::numeric_limits<double>::quiet_NaN();
     static_cast<void>(plan_.path.push_back(point));  // of 4096: the hall has room for 440
   }
 
@@ -64,7 +60,7 @@ class StraightPlanner final : public Planner {
   std::vector<std::uint8_t> unseen_ = std::vector<std::uint8_t>(kCells, 0);
   std::vector<float> to_go_s_ = std::vector<float>(kCells, 0.0F);
   Plan plan_;
-  PlanFault fault_ = PlanFault::kNone;
+  bool ended_ = false;
 };
 
 class FaultBench;

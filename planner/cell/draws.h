@@ -3,8 +3,6 @@
 #include <cstdint>
 
 #include "planner/cell/cell.h"
-#include "planner/cell/circle.h"
-#include "planner/cell/exp_log.h"
 
 namespace jaywalk::cell {
 

@@ -23,10 +23,6 @@ inline constexpr std::uint32_t kCostsPerCell = 2U * kRateOfOpenGround * kStraigh
 struct CellStep {
   std::int32_t di, dj;
   std::uint32_t length;
-
-  [[nodiscard]] JAYWALK_CELL constexpr std::uint32_t cost(std::uint32_t rate, std::uint32_t other_rate) const {
-    return (rate + other_rate) * length;
-  }
 };
 inline constexpr std::int32_t kCellSteps = 16;
 /// The k-th of them.
@@ -57,11 +53,17 @@ struct CellSteps {
   JAYWALK_CELL void step(std::int32_t n, const CellStep& step, const May& may, const Visit& visit) const {
     const CellNode* const here = nodes + n;
     const std::int32_t away = step.dj * width + step.di;
-    const std::uint32_t rate = here[away].rate, cost = step.cost(here->rate, rate);
+    const std::uint32_t rate = here[away].rate, cost = (here->rate + rate) * step.length;
     if (rate == 0 || here->rate == 0 || !may(n + away, cost)) return;
     const std::int32_t between = step.dj / 2 * width + step.di / 2;
     if (here[between].rate != 0 && here[away - between].rate != 0) visit(n + away, cost);
   }
+  /// The k-th step of kCellSteps.
+  template <class May, class Visit>
+  JAYWALK_CELL void step(std::int32_t n, std::int32_t k, const May& may, const Visit& visit) const {
+    step(n, cell_step(k), may, visit);
+  }
+  [[nodiscard]] JAYWALK_CELL static std::int32_t count(std::int32_t) { return kCellSteps; }
   /// Cells at this cost or beyond it are not stepped from: `more` beyond a cost.
   [[nodiscard]] JAYWALK_CELL static std::uint32_t end(std::uint32_t there, std::uint32_t more) {
     return there < kEverywhere - more ? there + more : kEverywhere;
@@ -152,9 +154,11 @@ class CellGraph {
     for (const CellStep& step : kSteps) visit(n + step.dj * width_ + step.di);
   }
 
- private:
+ protected:
   std::vector<CellNode> nodes_;
   std::int32_t width_ = 0;
+
+ private:
   std::int32_t seed_ = kNone;
   std::int32_t end_ = kNone;
   std::uint32_t more_ = 0, limit_ = CellSteps::kEverywhere;

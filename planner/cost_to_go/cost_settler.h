@@ -1,11 +1,66 @@
 #pragma once
-// The time to go's long work, done elsewhere than by the processor's loops and queues: on a device.
+// The time to go's long work as plain values, for the processor's loops and queues or for a device: poses, the moves
+// between them backward, their room, rates and costs; costs of cells.
+#include <algorithm>
 #include <cstdint>
 
 #include "planner/cost_to_go/cell_graph.h"
-#include "planner/cost_to_go/pose_graph.h"
+#include "planner/cost_to_go/pose_guide.h"
 
 namespace jaywalk::field {
+
+/// The moves backward, by the heading that they lead to; plain values.
+struct BackMoves {
+  static constexpr std::int32_t kMost = 2 * PoseMoves::kMost;
+  struct Move {
+    std::int32_t offset;  ///< of poses
+    std::uint32_t cost, unseen_weight;
+  };
+
+  void turn_back(const PoseMoves& moves) noexcept {
+    std::fill_n(count, PoseLattice::kHeadings, 0);
+    for (std::int32_t from = 0; from < PoseLattice::kHeadings; ++from) {
+      for (std::int32_t m = 0; m < moves.count[static_cast<std::size_t>(from)]; ++m) {
+        const PoseMove& move = moves.from[static_cast<std::size_t>(from)][static_cast<std::size_t>(m)];
+        const std::int32_t heading = PoseLattice::wrapped(from + move.turn);
+        if (count[heading] == kMost) continue;
+        to[heading][count[heading]++] = {PoseLattice::offset(-move.di, -move.dj, from - heading), move.cost,
+                                         price::unseen_weight(move.gear, move.turn)};
+      }
+    }
+  }
+
+  Move to[PoseLattice::kHeadings][kMost];
+  std::int32_t count[PoseLattice::kHeadings];
+};
+
+/// The steps to poses that a pose may be come to from, on the processor and on a device; plain values.
+struct PoseSteps {
+  static constexpr std::uint32_t kNone = PoseGuide::kNoWay, kSpan = 128;  ///< half a second in the open
+
+  const BackMoves* moves = nullptr;
+  const std::uint8_t *rate = nullptr, *unseen = nullptr;  ///< as PoseGuide has them
+
+  [[nodiscard]] JAYWALK_CELL std::int32_t count(std::int32_t pose) const {
+    return moves->count[PoseLattice::heading_of(pose)];
+  }
+  /// The k-th of them. may(from, least) is asked first: what the step costs is the dearer question, and nowhere is less
+  /// dear than the open.
+  template <class May, class Visit>
+  JAYWALK_CELL void step(std::int32_t pose, std::int32_t k, const May& may, const Visit& visit) const {
+    const BackMoves::Move& move = moves->to[PoseLattice::heading_of(pose)][k];
+    const std::int32_t from = pose + move.offset;
+    if (!may(from, move.cost)) return;
+    const std::uint32_t other = rate[from];
+    if (other == 0) return;
+    visit(from,
+          price::cost_of(move.cost, rate[pose], other, unseen == nullptr ? 0U : unseen[pose], move.unseen_weight));
+  }
+  /// Poses at this cost or beyond it are not stepped from: `more` beyond a cost.
+  [[nodiscard]] JAYWALK_CELL static std::uint32_t end(std::uint32_t there, std::uint32_t more) {
+    return there + more + 1 < kNone ? there + more + 1 : kNone;
+  }
+};
 
 /// Nodes at which the room of a body's outline is read, by each one's distance to the nearest surface: plain values. A
 /// pose stands for the place in its cell, across its heading, with the most room.
@@ -121,8 +176,7 @@ class CostSettler {
   CostSettler& operator=(const CostSettler&) = delete;
   /// True where it may be asked, again after a failure.
   [[nodiscard]] virtual bool is_ready() noexcept = 0;
-  /// True where it has failed since it was ready last; failure() says why, empty where it has not.
-  [[nodiscard]] virtual bool has_failed() const noexcept = 0;
+  /// Why it has failed since it was ready last; empty where it has not.
   [[nodiscard]] virtual const char* failure() const noexcept = 0;
   /// Time that it has taken in all, ms, by the device's own clock.
   [[nodiscard]] virtual double took_ms() const noexcept = 0;

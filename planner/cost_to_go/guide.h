@@ -36,11 +36,10 @@ struct Guide {
 
   /// From a place to the nearest surface (m), kFar_m at most and outside the window.
   [[nodiscard]] JAYWALK_CELL float distance(float x, float y) const {
-    std::int32_t i = 0, j = 0;
-    float fx = 0.0F, fy = 0.0F;
-    if (!locate(x, y, i, j, fx, fy)) return kFar_m;
+    const Spot at = spot_of(x, y);
+    if (at.cell < 0) return kFar_m;
     // The nearest surface is that of one of the four cells round the place.
-    const Place* s = surface + j * side + i;
+    const Place* s = surface + at.cell;
     const float a = squared(s[0], x, y), b = squared(s[1], x, y), c = squared(s[side], x, y),
                 d = squared(s[side + 1], x, y);
     const float ab = a < b ? a : b, cd = c < d ? c : d, least = ab < cd ? ab : cd;
@@ -56,16 +55,10 @@ struct Guide {
 
   /// Seconds to the goal, between the cells round a place that have a way; kNoWay_s where none has.
   [[nodiscard]] JAYWALK_CELL float time_to_go(float x, float y) const {
-    std::int32_t i = 0, j = 0;
-    float fx = 0.0F, fy = 0.0F;
-    if (!locate(x, y, i, j, fx, fy)) return kNoWay_s;
-    const float* t = to_go_s + j * side + i;
-    float sum = 0.0F, weight = 0.0F;
-    add(t[0], (1.0F - fx) * (1.0F - fy), sum, weight);
-    add(t[1], fx * (1.0F - fy), sum, weight);
-    add(t[side], (1.0F - fx) * fy, sum, weight);
-    add(t[side + 1], fx * fy, sum, weight);
-    return weight > 0.05F ? sum / weight : kNoWay_s;
+    const Spot at = spot_of(x, y);
+    if (at.cell < 0) return kNoWay_s;
+    const float* t = to_go_s + at.cell;
+    return between(t[0], t[1], t[side], t[side + 1], at.fx, at.fy);
   }
 
   /// The same for N places at once, which a processor with vectors computes side by side: the same bits.
@@ -88,12 +81,8 @@ struct Guide {
       t[0][n] = of[0], t[1][n] = of[1], t[2][n] = of[side], t[3][n] = of[side + 1];
     }
     for (std::size_t n = 0; n < N; ++n) {
-      float sum = 0.0F, weight = 0.0F;
-      add(t[0][n], (1.0F - fx[n]) * (1.0F - fy[n]), sum, weight);
-      add(t[1][n], fx[n] * (1.0F - fy[n]), sum, weight);
-      add(t[2][n], (1.0F - fx[n]) * fy[n], sum, weight);
-      add(t[3][n], fx[n] * fy[n], sum, weight);
-      seconds[n] = (inside[n] & (weight > 0.05F)) ? sum / weight : kNoWay_s;
+      const float there = between(t[0][n], t[1][n], t[2][n], t[3][n], fx[n], fy[n]);
+      seconds[n] = inside[n] ? there : kNoWay_s;
     }
   }
 
@@ -106,19 +95,30 @@ struct Guide {
   }
 
  private:
-  /// The cell whose middle lies below and left of a place, and how far beyond it is; false outside.
-  [[nodiscard]] JAYWALK_CELL bool locate(float x, float y, std::int32_t& i, std::int32_t& j, float& fx,
-                                         float& fy) const {
+  /// The cell whose middle lies below and left of a place, negative outside; how far beyond it the place is, in cells.
+  struct Spot {
+    std::int32_t cell;
+    float fx, fy;
+  };
+  [[nodiscard]] JAYWALK_CELL Spot spot_of(float x, float y) const {
     const float gx = (x - low_x) / cell_m - 0.5F, gy = (y - low_y) / cell_m - 0.5F;
     const auto last = static_cast<float>(side - 1);
-    if (!(gx >= 0.0F && gy >= 0.0F && gx < last && gy < last)) return false;
-    i = static_cast<std::int32_t>(gx), j = static_cast<std::int32_t>(gy);
-    fx = gx - static_cast<float>(i), fy = gy - static_cast<float>(j);
-    return true;
+    if (!(gx >= 0.0F && gy >= 0.0F && gx < last && gy < last)) return {-1, 0.0F, 0.0F};
+    const auto i = static_cast<std::int32_t>(gx), j = static_cast<std::int32_t>(gy);
+    return {j * side + i, gx - static_cast<float>(i), gy - static_cast<float>(j)};
   }
   [[nodiscard]] JAYWALK_CELL static float squared(const Place& s, float x, float y) {
     const float dx = s.x - x, dy = s.y - y;
     return dx * dx + dy * dy;
+  }
+  /// Mean of those of four cells' times that are known, by how far a place lies from the first cell's middle.
+  [[nodiscard]] JAYWALK_CELL static float between(float t00, float t10, float t01, float t11, float fx, float fy) {
+    float sum = 0.0F, weight = 0.0F;
+    add(t00, (1.0F - fx) * (1.0F - fy), sum, weight);
+    add(t10, fx * (1.0F - fy), sum, weight);
+    add(t01, (1.0F - fx) * fy, sum, weight);
+    add(t11, fx * fy, sum, weight);
+    return weight > 0.05F ? sum / weight : kNoWay_s;
   }
   JAYWALK_CELL static void add(float t, float w, float& sum, float& weight) {
     sum = t < kNoWay_s ? sum + w * t : sum;

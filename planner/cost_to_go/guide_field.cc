@@ -6,8 +6,6 @@
 #include <iterator>
 #include <utility>
 
-#include "planner/cost_to_go/pose_price.h"
-
 namespace jaywalk::field {
 namespace {
 
@@ -32,12 +30,6 @@ constexpr float kBlocked_m = 0.01F;         ///< beyond the inscribed circle
 constexpr float kUnseenWeight = 8.0F;       ///< near the robot, what it has not seen yet:
 constexpr double kUnseenRadius_m = 2.0;     ///< a body must not back into it
 
-/// Then none counts: the robot may leave.
-bool is_in(const KeepOut& zones, Vec2 robot_in_map) {
-  const Place robot = place_of(robot_in_map);
-  return zones.distance(robot.x, robot.y) < 0.0F;
-}
-
 }  // namespace
 
 TimeToGoField::Memory::Memory(std::int32_t max_side)
@@ -46,7 +38,7 @@ TimeToGoField::Memory::Memory(std::int32_t max_side)
       to_go_s(static_cast<std::size_t>(Grid{max_side}.cells()), Guide::kNoWay_s) {}
 
 TimeToGoField::TimeToGoField(double inscribed_m, double circumscribed_m, std::int32_t max_side,
-                             std::shared_ptr<const KeepOutField> keep_out, CostSettler* settler)
+                             std::shared_ptr<const KeepOutField> keep_out, CostSettler* settler, const FarGuide* far)
     : blocked_m_(static_cast<float>(inscribed_m) + kBlocked_m),
       tight_m_(static_cast<float>(circumscribed_m) + kTight_m),
       tight_weight_(tight_m_ - blocked_m_ > kLong_m ? kTightWeightOfLong : kTightWeight),
@@ -61,18 +53,19 @@ TimeToGoField::TimeToGoField(double inscribed_m, double circumscribed_m, std::in
       evidence_(row_round_.size()),
       graph_(max_side),
       repair_(CellGraph::size_for(max_side), 2 * CellGraph::size_for(max_side)),
-      settler_(settler) {
+      settler_(settler),
+      far_(far) {
   changed_.resize(rate_.size());  // touched, not only reserved: no page is to be fetched later
   changed_.clear();
 }
 
-Guide TimeToGoField::settle(const TimeToGoRequest& request, Memory& memory) noexcept {
-  const Window last_window = std::exchange(window_, request.window);
+Guide TimeToGoField::settle(const PlanRequest& request, const Window& window, Memory& memory) noexcept {
+  const Window last_window = std::exchange(window_, window);
   const CellBox last_box = std::exchange(box_, box_of(request));
   const bool same_ground = window_ == last_window && box_ == last_box;
   ++round_;
   std::fill_n(memory.unseen.begin(), window_.grid().cells(), std::uint8_t{0});
-  surfaces_.find(window_, box_, request.still, request.movers, memory.unseen.data());
+  surfaces_.find(window_, box_, request.still, request.masked, memory.unseen.data());
   weigh(request, same_ground, memory.unseen.data());
   settle_costs(request, same_ground);
   write(request, memory);
@@ -98,10 +91,10 @@ void TimeToGoField::draw(const Guide& guide, float* seconds) const noexcept {
 }
 
 /// Everything that is known, keep-out zones, robot and goal, and three metres about them: room enough to walk round.
-CellBox TimeToGoField::box_of(const TimeToGoRequest& request) noexcept {
+CellBox TimeToGoField::box_of(const PlanRequest& request) noexcept {
   const std::int32_t last = window_.side - 1, margin = static_cast<std::int32_t>(3.0 / window_.cell_m);
-  const CellIndex robot = window_.cell_at(request.robot_in_map);
-  const CellIndex goal = projected_goal(window_, request.robot_in_map, request.goal_in_map);
+  const CellIndex robot = window_.cell_at(request.map_from_robot.position());
+  const CellIndex goal = projected_goal(window_, request.map_from_robot.position(), request.goal_in_map);
   CellBox box{std::min(robot.i, goal.i), std::min(robot.j, goal.j), std::max(robot.i, goal.i),
               std::max(robot.j, goal.j)};
   const auto row_end = evidence_.begin() + window_.side;
@@ -134,8 +127,8 @@ std::uint16_t TimeToGoField::rate_at(float d) const noexcept {
 }
 
 /// Whether the shortest way from the robot, or from the nearest cell that has one, soon passes what was never seen.
-bool TimeToGoField::leads_through_unseen(const TimeToGoRequest& request, const std::uint8_t* unseen) const noexcept {
-  const CellIndex robot = window_.cell_at(request.robot_in_map);
+bool TimeToGoField::leads_through_unseen(const PlanRequest& request, const std::uint8_t* unseen) const noexcept {
+  const CellIndex robot = window_.cell_at(request.map_from_robot.position());
   std::int32_t i = robot.i, j = robot.j;
   for (double gone = 0.0; gone < kUnseenRadius_m;) {
     std::uint32_t least = kNoWay;
@@ -155,9 +148,10 @@ bool TimeToGoField::leads_through_unseen(const TimeToGoRequest& request, const s
   return false;
 }
 
-void TimeToGoField::weigh(const TimeToGoRequest& request, bool same_ground, const std::uint8_t* unseen) noexcept {
+void TimeToGoField::weigh(const PlanRequest& request, bool same_ground, const std::uint8_t* unseen) noexcept {
   const auto cells = window_.grid().cells();
-  const bool leaves_zone = is_in(keep_out_, request.robot_in_map);
+  const Place robot = place_of(request.map_from_robot.position());
+  const bool leaves_zone = keep_out_.distance(robot.x, robot.y) < 0.0F;  // then no zone counts: the robot may leave
   const bool anew = std::exchange(leaves_zone_, leaves_zone) != leaves_zone;
   if (!same_ground) std::fill_n(ground_rate_.begin(), cells, std::uint16_t{0});
   for (std::int32_t i = box_.i0; i <= box_.i1; ++i) {
@@ -169,7 +163,7 @@ void TimeToGoField::weigh(const TimeToGoRequest& request, bool same_ground, cons
   }
   rate_.swap(last_rate_);
   std::copy_n(ground_rate_.begin(), cells, rate_.begin());
-  for_each_in_disc(window_, box_, request.robot_in_map, kUnseenRadius_m, [&](std::int32_t c) {
+  for_each_in_disc(window_, box_, request.map_from_robot.position(), kUnseenRadius_m, [&](std::int32_t c) {
     if (unseen[c] != 0) add_weight(c, kUnseenWeight);
   });
   for (const StandingPedestrian& pedestrian : request.standing) {
@@ -205,7 +199,7 @@ void TimeToGoField::add_weight(std::int32_t c, float weight) noexcept {
 }
 
 /// The goal's cell, or the nearest free one; kNone where there is none near or the goal is outside.
-std::int32_t TimeToGoField::goal_cell(const TimeToGoRequest& request) const noexcept {
+std::int32_t TimeToGoField::goal_cell(const PlanRequest& request) const noexcept {
   const Grid grid = window_.grid();
   if (!window_.holds(request.goal_in_map, 0)) return CellGraph::kNone;
   std::int32_t best = -1;
@@ -219,18 +213,17 @@ std::int32_t TimeToGoField::goal_cell(const TimeToGoRequest& request) const noex
 }
 
 /// For a goal outside every cell of the border, with what is left beyond.
-void TimeToGoField::seed_border(const TimeToGoRequest& request) noexcept {
-  const FarGuide* const far =
-      request.far != nullptr && request.far->has_way_near(request.robot_in_map) ? request.far : nullptr;
-  const double through = distance(request.robot_in_map, request.goal_in_map);
+void TimeToGoField::seed_border(const PlanRequest& request) noexcept {
+  const Vec2 robot = request.map_from_robot.position();
+  const bool knows_far = far_ != nullptr && far_->has_way_near(robot);
+  const double through = distance(robot, request.goal_in_map);
   const auto add = [&](std::int32_t i, std::int32_t j) {
     const std::int32_t n = graph_.at(i, j);
     if (rate_[static_cast<std::size_t>(window_.grid().at(i, j))] == 0 || graph_.cost(n) != kNoWay) return;
     const Vec2 here = window_.in_map({i + 0.5, j + 0.5});
     // Straight on, relative to the straight way, so that a goal far off costs no more than numbers hold.
-    const double more = far != nullptr
-                            ? far->to_go_m(here)
-                            : distance(here, request.goal_in_map) - through + window_.side * window_.cell_m * 1.5;
+    const double more = knows_far ? far_->to_go_m(here)
+                                  : distance(here, request.goal_in_map) - through + window_.side * window_.cell_m * 1.5;
     if (std::isinf(more)) return;
     repair_.offer(graph_, n, static_cast<std::uint32_t>(std::max(0.0, more) / window_.cell_m * kCostsPerCell));
   };
@@ -238,9 +231,9 @@ void TimeToGoField::seed_border(const TimeToGoRequest& request) noexcept {
   for (std::int32_t j = box_.j0; j <= box_.j1; ++j) add(box_.i0, j), add(box_.i1, j);
 }
 
-void TimeToGoField::settle_costs(const TimeToGoRequest& request, bool same_ground) noexcept {
+void TimeToGoField::settle_costs(const PlanRequest& request, bool same_ground) noexcept {
   graph_.take_grid(window_.grid());
-  const std::int32_t robot = graph_.at(window_.cell_at(request.robot_in_map));
+  const std::int32_t robot = graph_.at(window_.cell_at(request.map_from_robot.position()));
   const std::int32_t goal = goal_cell(request), last = std::exchange(goal_, goal);
   if (certified_ && same_ground && goal != CellGraph::kNone && goal == last && repair_costs(window_.grid(), robot))
     return;
@@ -264,7 +257,7 @@ bool TimeToGoField::repair_costs(Grid grid, std::int32_t robot) noexcept {
   return changed_.size() <= cells / kFewOf && repair_.repair(graph_, changed_) && graph_.reaches(robot, kBeyondRobot);
 }
 
-void TimeToGoField::settle_anew(const TimeToGoRequest& request, std::int32_t robot) noexcept {
+void TimeToGoField::settle_anew(const PlanRequest& request, std::int32_t robot) noexcept {
   const Grid grid = window_.grid();
   graph_.clear();
   for (std::int32_t j = box_.j0; j <= box_.j1; ++j) {
@@ -283,9 +276,9 @@ void TimeToGoField::settle_anew(const TimeToGoRequest& request, std::int32_t rob
   graph_.keep_end();
 }
 
-void TimeToGoField::write(const TimeToGoRequest& request, Memory& memory) noexcept {
+void TimeToGoField::write(const PlanRequest& request, Memory& memory) noexcept {
   const Grid grid = window_.grid();
-  const std::uint32_t last = graph_.beyond(graph_.at(window_.cell_at(request.robot_in_map)), kBeyondRobot);
+  const std::uint32_t last = graph_.beyond(graph_.at(window_.cell_at(request.map_from_robot.position())), kBeyondRobot);
   const double seconds = window_.cell_m / (std::max(request.speed_mps, 0.05) * kCostsPerCell);
   std::fill_n(memory.to_go_s.begin(), grid.cells(), Guide::kNoWay_s);
   for (std::int32_t j = box_.j0; j <= box_.j1; ++j) {

@@ -1,7 +1,6 @@
 #pragma once
 #include <cstdint>
 #include <memory>
-#include <span>
 #include <vector>
 
 #include "hal/types/time.h"
@@ -66,17 +65,6 @@ class FarGuide {
   std::int32_t goal_ = CellGraph::kNone;
 };
 
-/// What the time to go depends on.
-struct TimeToGoRequest {
-  Window window;
-  const EvidenceMap* still = nullptr;
-  std::span<const MoverDisc> movers;                  ///< no walls
-  std::span<const StandingPedestrian> standing = {};  ///< ways past them are dear
-  Vec2 robot_in_map, goal_in_map;
-  double speed_mps = 0.0;
-  const FarGuide* far = nullptr;  ///< settled for a goal outside the window; null: beyond it straight on
-};
-
 /// Nearest surfaces and the time to go to the goal, for a body of which `inscribed_m` is the narrowest half: nearer to
 /// a surface than that it cannot be, nearer than its corners reach is dear, and room of up to a metre is worth a
 /// detour. Keep-out zones are like surfaces to it, but for a robot in one: that may leave, and what lies in zones is
@@ -84,7 +72,8 @@ struct TimeToGoRequest {
 /// of cost[n] = min(cost[c] + step) over sixteen neighbours. Where few cells have changed since the last time, what
 /// depends on them is repaired, to the same bytes.
 ///
-/// What is settled anew `settler` is asked for first; where it fails, and without one, it is settled here.
+/// What is settled anew `settler` is asked for first; where it fails, and without one, it is settled here. `far`:
+/// settled before, for a goal outside the window; without it the way goes straight on there.
 /// Memory for windows of up to `max_side` cells in the constructor. Thread: the planner's.
 class TimeToGoField {
  public:
@@ -98,10 +87,11 @@ class TimeToGoField {
   };
 
   TimeToGoField(double inscribed_m, double circumscribed_m, std::int32_t max_side,
-                std::shared_ptr<const KeepOutField> keep_out = nullptr, CostSettler* settler = nullptr);
+                std::shared_ptr<const KeepOutField> keep_out = nullptr, CostSettler* settler = nullptr,
+                const FarGuide* far = nullptr);
 
   /// Fills `memory` and returns a view of it.
-  Guide settle(const TimeToGoRequest& request, Memory& memory) noexcept;
+  Guide settle(const PlanRequest& request, const Window& window, Memory& memory) noexcept;
 
   /// What it was settled on, until the next time.
   [[nodiscard]] const CellGraph& graph() const noexcept { return graph_; }
@@ -111,17 +101,17 @@ class TimeToGoField {
   void draw(const Guide& guide, float* seconds) const noexcept;
 
  private:
-  [[nodiscard]] CellBox box_of(const TimeToGoRequest& request) noexcept;
-  void weigh(const TimeToGoRequest& request, bool same_ground, const std::uint8_t* unseen) noexcept;
+  [[nodiscard]] CellBox box_of(const PlanRequest& request) noexcept;
+  void weigh(const PlanRequest& request, bool same_ground, const std::uint8_t* unseen) noexcept;
   void weigh_ground(std::int32_t j) noexcept;
   void add_weight(std::int32_t c, float weight) noexcept;
-  void settle_costs(const TimeToGoRequest& request, bool same_ground) noexcept;
+  void settle_costs(const PlanRequest& request, bool same_ground) noexcept;
   [[nodiscard]] bool repair_costs(Grid grid, std::int32_t robot) noexcept;
-  void settle_anew(const TimeToGoRequest& request, std::int32_t robot) noexcept;
-  [[nodiscard]] std::int32_t goal_cell(const TimeToGoRequest& request) const noexcept;
-  void seed_border(const TimeToGoRequest& request) noexcept;
-  void write(const TimeToGoRequest& request, Memory& memory) noexcept;
-  [[nodiscard]] bool leads_through_unseen(const TimeToGoRequest& request, const std::uint8_t* unseen) const noexcept;
+  void settle_anew(const PlanRequest& request, std::int32_t robot) noexcept;
+  [[nodiscard]] std::int32_t goal_cell(const PlanRequest& request) const noexcept;
+  void seed_border(const PlanRequest& request) noexcept;
+  void write(const PlanRequest& request, Memory& memory) noexcept;
+  [[nodiscard]] bool leads_through_unseen(const PlanRequest& request, const std::uint8_t* unseen) const noexcept;
   [[nodiscard]] std::uint16_t rate_at(float distance_m) const noexcept;
 
   float blocked_m_, tight_m_, tight_weight_;
@@ -143,6 +133,7 @@ class TimeToGoField {
   CellGraph graph_;
   Shortest repair_;
   CostSettler* settler_;
+  const FarGuide* far_;
 };
 
 }  // namespace jaywalk::field

@@ -121,25 +121,9 @@ void NearestSurfaces::spread_along_columns() noexcept {
 /// By the lower envelope of the columns' parabolas (planner/cell/cell.h): what a cell keeps is the surface of the
 /// column that is nearest to it.
 void NearestSurfaces::spread_along_row(std::int32_t j) noexcept {
-  const auto height = [&](std::int32_t i) { return size_of(rows_[at(i, j)]); };
-  std::size_t count = 0;
+  const auto away = [&](std::int32_t i) { return rows_[at(i, j)] == kNoRow ? -1 : size_of(rows_[at(i, j)]); };
   std::fill(&surface_[at(box_.i0, j)], &surface_[at(box_.i1, j)] + 1, kNowhere);
-  for (std::int32_t u = box_.i0; u <= box_.i1; ++u) {
-    if (rows_[at(u, j)] == kNoRow) continue;
-    const auto loses = [&](std::size_t k) {
-      return cell::squared_distance(begin_[k], column_[k], height(column_[k])) >
-             cell::squared_distance(begin_[k], u, height(u));
-    };
-    while (count > 0 && loses(count - 1)) --count;
-    std::int32_t from = box_.i0;
-    if (count > 0) {
-      const std::int32_t before = column_[count - 1];
-      from = 1 + cell::last_nearer(before, height(before), u, height(u));
-    }
-    if (from > box_.i1) continue;
-    column_[count] = u;
-    begin_[count++] = from > box_.i0 ? from : box_.i0;
-  }
+  auto count = static_cast<std::size_t>(cell::lower_envelope(box_.i0, box_.i1, away, column_.data(), begin_.data()));
   for (std::int32_t i = box_.i1; i >= box_.i0 && count > 0; --i) {
     const std::int32_t u = column_[count - 1];
     if (std::abs(u - i) <= kReach) surface_[at(i, j)] = own_[at(u, j + rows_[at(u, j)])];

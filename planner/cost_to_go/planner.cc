@@ -14,16 +14,15 @@ bool is_side(std::int32_t side) { return side >= 64 && side <= 4096 && (side & (
 
 }  // namespace
 
-void refuse(const char* name, double value, const char* remedy) {
-  throw StartupError(std::string("planner: ") + name + " is " + std::to_string(value), remedy);
+void refuse_unless(bool makes_sense, const char* name, double value, const char* remedy) {
+  if (!makes_sense) throw StartupError(std::string("planner: ") + name + " is " + std::to_string(value), remedy);
 }
 
 void check(const PlannerConfig& config) {
-  if (!(config.cell_m >= 0.01 && config.cell_m <= 1.0)) refuse("cell_m", config.cell_m, "choose 0.01 to 1 m");
-  if (!is_side(config.side_cells)) refuse("side_cells", config.side_cells, "choose 256, 512 or 1024");
-  if (!is_side(config.max_side_cells) || config.max_side_cells < config.side_cells) {
-    refuse("max_side_cells", config.max_side_cells, "choose 256, 512 or 1024, not below side_cells");
-  }
+  const std::int32_t side = config.side_cells, most = config.max_side_cells;
+  refuse_unless(config.cell_m >= 0.01 && config.cell_m <= 1.0, "cell_m", config.cell_m, "choose 0.01 to 1 m");
+  refuse_unless(is_side(side), "side_cells", side, "choose 256, 512 or 1024");
+  refuse_unless(is_side(most) && most >= side, "max_side_cells", most, "choose 256, 512 or 1024, not below side_cells");
 }
 
 bool is_finite(const PlanRequest& request) noexcept {

@@ -70,7 +70,6 @@ struct Prediction {
   std::uint32_t track_id = 0;
   Vec2 position_in_map;
   double mark_radius_m = 0.0;
-  double horizon_s = 0.0;
 };
 
 /// What a plan took; for reports only, no decision rests on it.
@@ -151,8 +150,8 @@ inline constexpr double kGoalRadius_m = 0.5;
 
 /// Throws StartupError for a configuration that makes no sense.
 void check(const PlannerConfig& config);
-/// The error of one value.
-[[noreturn]] void refuse(const char* name, double value, const char* remedy);
+/// Throws StartupError for one value that makes none.
+void refuse_unless(bool makes_sense, const char* name, double value, const char* remedy);
 
 /// True where pose, goal and speed are numbers.
 [[nodiscard]] bool is_finite(const PlanRequest& request) noexcept;

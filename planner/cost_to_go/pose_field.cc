@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "planner/cost_to_go/nearest_surfaces.h"
-#include "planner/cost_to_go/pose_price.h"
 
 namespace jaywalk::field {
 namespace {
@@ -55,6 +54,24 @@ constexpr std::array<std::uint8_t, kRooms> kRateOfRoom = [] {
 constexpr std::uint8_t kDearestPose =
     static_cast<std::uint8_t>((1.0F + price::kPoseNear) * static_cast<float>(price::kRateOfOpen));
 
+/// Graph of poses, for Shortest: as the device has them.
+struct PoseGraph {
+  using Cost = std::uint16_t;
+  static constexpr std::uint32_t kSpan = PoseSteps::kSpan;
+  PoseCosts poses;
+
+  [[nodiscard]] Cost& cost(std::int32_t pose) const noexcept { return poses.cost[pose]; }
+  [[nodiscard]] std::uint32_t limit() const noexcept {
+    return PoseSteps::end(poses.robot < 0 ? PoseSteps::kNone : cost(poses.robot), poses.beyond);
+  }
+  template <class May, class Visit>
+  void for_each_step(std::int32_t pose, const May& may, const Visit& visit) const noexcept {
+    const std::int32_t count = poses.steps.count(pose);
+    const auto asked = [&](std::int32_t from, std::uint32_t least) { return may(cost(from), least); };
+    for (std::int32_t k = 0; k < count; ++k) poses.steps.step(pose, k, asked, visit);
+  }
+};
+
 constexpr std::int32_t kRimRings = 3;
 constexpr float kOutward_m = 0.4F, kOutward_s = 0.2F;  // so far out of the square the time must have fallen by so much
 constexpr float kMostRim_s = 100.0F;                   // later than from elsewhere on the rim: none drives there
@@ -88,13 +105,6 @@ void for_each_of_rim(const Visit& visit) {
 
 }  // namespace
 
-PoseField::Memory::Memory()
-    : cost(Lattice::kPoses, PoseGuide::kNoWay),
-      rate(Lattice::kPoses),
-      room(Lattice::kPoses),
-      unseen(Lattice::kPoses),
-      shift(Lattice::kPoses) {}
-
 PoseField::PoseField(const Footprint& body, CostSettler* settler, std::size_t entries)
     : body_(body),
       settler_(settler),
@@ -103,37 +113,45 @@ PoseField::PoseField(const Footprint& body, CostSettler* settler, std::size_t en
       seeds_(Lattice::kPoses),
       queue_(0, entries) {}
 
-PoseGuide PoseField::settle(const PoseFieldRequest& request, Memory& memory) noexcept {
+PoseGuide PoseField::settle(const PlanRequest& request, const Guide& places, Memory& memory) noexcept {
   const Pose2& robot = request.map_from_robot;
-  const Place low = low_corner(request.guide, robot);
-  if (!(memory.speeds == request.asked.speeds)) memory.moves.draw(memory.speeds = request.asked.speeds);
+  const Place low = low_corner(places, robot);
+  if (!(memory.speeds == request.poses.speeds)) memory.moves.draw(memory.speeds = request.poses.speeds);
   PoseGuide guide{.low_x = low.x,
                   .low_y = low.y,
-                  .speed_mps = request.asked.speeds.forward,
+                  .speed_mps = request.poses.speeds.forward,
                   .cost = memory.cost.data(),
                   .rate = memory.rate.data(),
                   .room = memory.room.data(),
                   .shift = memory.shift.data(),
                   .moves = &memory.moves};
-  room_.take_surfaces(request.guide, low, request.asked.unseen_walls);
+  room_.take_surfaces(places, low, request.poses.unseen_walls);
   const Place here = place_of(robot.position());
   const auto heading = static_cast<float>(robot.heading);
-  if (room_.find_unseen(request.guide, low, memory.unseen.data())) guide.unseen = memory.unseen.data();
-  graph_.lay(guide, memory.cost.data(), guide.pose_at(here.x, here.y, heading), kBeyond);
+  if (room_.find_unseen(places, low, memory.unseen.data())) guide.unseen = memory.unseen.data();
+  moves_.turn_back(memory.moves);
+  const std::int32_t robot_pose = guide.pose_at(here.x, here.y, heading);
   const bool anybody_stands = !request.standing.empty(), is_inside = sow_goal(request, guide, memory);
+  const PoseCosts costs{room_.look(memory.room.data(), memory.shift.data()),
+                        {kRateOfRoom.data(), kDearestPose, memory.room.data(),
+                         anybody_stands ? dearer_.data() : nullptr, robot_pose, memory.rate.data()},
+                        {&moves_, memory.rate.data(), guide.unseen},
+                        robot_pose,
+                        kBeyond,
+                        memory.cost.data()};
   if (anybody_stands) std::fill(dearer_.begin(), dearer_.end(), std::uint8_t{0});
   for (const StandingPedestrian& pedestrian : request.standing) weigh_standing(pedestrian, guide);
-  if (!is_inside) sow_rim(request, guide, memory);
-  settle_costs(anybody_stands, memory);
+  if (!is_inside) sow_rim(places, guide, memory);
+  settle_costs(costs);
   const auto any_seed = [&](const auto& is_open) { return std::any_of(seeds_.begin(), seeds_.end(), is_open); };
   if (is_inside && !any_seed([&](std::int32_t pose) { return kRateOfRoom[memory.room[slot_of(pose)]] != 0; })) {
-    guide.goal_closed = request.asked.wants_heading;
+    guide.goal_closed = request.poses.wants_heading;
     if (!guide.goal_closed && !any_seed([&](std::int32_t pose) { return memory.rate[slot_of(pose)] != 0; })) {
-      sow_rim(request, guide, memory);
-      settle_costs(anybody_stands, memory);
+      sow_rim(places, guide, memory);
+      settle_costs(costs);
     }
   }
-  guide.known = guide.time_to_go(request.guide, here.x, here.y, heading) < Guide::kNoWay_s;
+  guide.known = guide.time_to_go(places, here.x, here.y, heading) < Guide::kNoWay_s;
   if (guide.known && guide.unseen != nullptr) {
     guide.way_from(here.x, here.y, heading, way_);
     guide.through_unseen = turns_into_unseen(guide, way_);
@@ -153,30 +171,24 @@ void PoseField::sow(std::int32_t pose, float seconds, Memory& memory) noexcept {
   cost = static_cast<std::uint16_t>(std::min<std::uint32_t>(cost, given));
 }
 
-void PoseField::settle_costs(bool anybody_stands, Memory& memory) noexcept {
-  const std::int32_t robot = graph_.robot();
-  const PoseCosts poses{room_.look(memory.room.data(), memory.shift.data()),
-                        {kRateOfRoom.data(), kDearestPose, memory.room.data(),
-                         anybody_stands ? dearer_.data() : nullptr, robot, memory.rate.data()},
-                        graph_.steps(),
-                        robot,
-                        kBeyond,
-                        memory.cost.data()};
+void PoseField::settle_costs(const PoseCosts& poses) noexcept {
   const bool is_settled = (settler_ != nullptr && settler_->settle(poses)) || settle_here(poses);
-  const std::uint32_t end = is_settled ? graph_.limit() : 0;
-  for (std::uint16_t& cost : memory.cost) cost = cost >= end ? PoseGuide::kNoWay : cost;
+  const std::uint32_t end = is_settled ? PoseGraph{poses}.limit() : 0;
+  for (std::uint16_t& cost : std::span(poses.cost, std::size_t{Lattice::kPoses}))
+    cost = cost >= end ? PoseGuide::kNoWay : cost;
 }
 
 bool PoseField::settle_here(const PoseCosts& poses) noexcept {
   room_.find(poses.look);
   const PoseRates rates = poses.rates;  // a copy, which what is written cannot change
   for (std::int32_t pose = 0; pose < Lattice::kPoses; ++pose) rates(pose);
+  PoseGraph graph{poses};
   queue_.clear();
   for (const std::int32_t pose : seeds_) {
     const std::uint32_t given = std::exchange(poses.cost[pose], PoseGuide::kNoWay);
-    if (rates.rate[pose] != 0) queue_.offer(graph_, pose, given);
+    if (rates.rate[pose] != 0) queue_.offer(graph, pose, given);
   }
-  return queue_.settle(graph_);
+  return queue_.settle(graph);
 }
 
 /// Ways past a pedestrian that stands are dear, not closed: it may leave.
@@ -203,13 +215,13 @@ void PoseField::weigh_standing(const StandingPedestrian& pedestrian, const PoseG
   }
 }
 
-bool PoseField::sow_goal(const PoseFieldRequest& request, const PoseGuide& guide, Memory& memory) noexcept {
+bool PoseField::sow_goal(const PlanRequest& request, const PoseGuide& guide, Memory& memory) noexcept {
   const Place goal = place_of(request.goal_in_map);
   constexpr float kMost = Lattice::kCell_m * static_cast<float>(Lattice::kSide) - kInside_m;
   forget_seeds(memory);
   const float gx = goal.x - guide.low_x, gy = goal.y - guide.low_y;
   if (!(gx > kInside_m && gy > kInside_m && gx < kMost && gy < kMost)) return false;
-  const PoseRequest& asked = request.asked;
+  const PoseRequest& asked = request.poses;
   const auto cells = static_cast<std::int32_t>(asked.arrives_m / Lattice::kCell_m) + 1;
   const auto ci = static_cast<std::int32_t>(gx / Lattice::kCell_m),
              cj = static_cast<std::int32_t>(gy / Lattice::kCell_m);
@@ -229,21 +241,21 @@ bool PoseField::sow_goal(const PoseFieldRequest& request, const PoseGuide& guide
   return true;
 }
 
-void PoseField::sow_rim(const PoseFieldRequest& request, PoseGuide& guide, Memory& memory) noexcept {
+void PoseField::sow_rim(const Guide& places, PoseGuide& guide, Memory& memory) noexcept {
   forget_seeds(memory);
   float least = Guide::kNoWay_s;
   for_each_of_rim([&](std::int32_t i, std::int32_t j, std::int32_t out_x, std::int32_t out_y) {
-    least = std::min(least, time_outward(request.guide, guide.middle_of(i, j), out_x, out_y));
+    least = std::min(least, time_outward(places, guide.middle_of(i, j), out_x, out_y));
   });
   if (least >= Guide::kNoWay_s) return;
   guide.least_s = least;
   for_each_of_rim([&](std::int32_t i, std::int32_t j, std::int32_t out_x, std::int32_t out_y) {
     const Place p = guide.middle_of(i, j);
-    if (time_outward(request.guide, p, out_x, out_y) >= Guide::kNoWay_s) return;
+    if (time_outward(places, p, out_x, out_y) >= Guide::kNoWay_s) return;
     for (std::int32_t h = 0; h < Lattice::kHeadings; ++h) {
       const std::int32_t pose = Lattice::at(i, j, h);
       const cell::Heading along = cell::heading_at(static_cast<float>(h) * Lattice::kStep_rad);
-      const float seconds = std::max(guide.time_beyond(request.guide, p.x, p.y, along) - least, 0.0F);
+      const float seconds = std::max(guide.time_beyond(places, p.x, p.y, along) - least, 0.0F);
       if (seconds < kMostRim_s) sow(pose, seconds, memory);
     }
   });

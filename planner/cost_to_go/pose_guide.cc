@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "planner/cost_to_go/pose_price.h"
-#include "planner/cost_to_go/pose_room.h"
+#include "planner/cost_to_go/pose_field.h"
 
 namespace jaywalk {
 namespace {

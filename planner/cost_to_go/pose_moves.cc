@@ -39,18 +39,17 @@ std::uint16_t cost_of(const Way& way, std::int32_t turn, Gear gear, const PoseSp
   return static_cast<std::uint16_t>((seconds + kBend_s * steps) * kPoseCostsPerSecond + 0.5F);
 }
 
-}  // namespace
-
 /// Unless it is there already.
-void PoseMoves::add(std::int32_t heading, const PoseMove& move) noexcept {
+void add(PoseMoves& moves, std::int32_t heading, const PoseMove& move) {
   const auto h = static_cast<std::size_t>(heading);
-  const auto end = from[h].begin() + count[h];
-  if (std::find(from[h].begin(), end, move) == end) from[h][static_cast<std::size_t>(count[h]++)] = move;
+  auto& from = moves.from[h];
+  const auto end = from.begin() + moves.count[h];
+  if (std::find(from.begin(), end, move) == end) from[static_cast<std::size_t>(moves.count[h]++)] = move;
 }
 
 /// The shortest and straightest of the moves whose slip is to one side: 1 left, -1 right, 0 either.
-void PoseMoves::add_best(std::int32_t heading, std::int32_t turn, Gear gear, float side,
-                         const PoseSpeeds& speeds) noexcept {
+void add_best(PoseMoves& moves, std::int32_t heading, std::int32_t turn, Gear gear, float side,
+              const PoseSpeeds& speeds) {
   constexpr std::int32_t kReach = PoseLattice::kReach;
   const float sign = gear == Gear::kForward ? 1.0F : -1.0F;
   const float middle_rad = (static_cast<float>(heading) + 0.5F * static_cast<float>(turn)) * PoseLattice::kStep_rad;
@@ -70,8 +69,10 @@ void PoseMoves::add_best(std::int32_t heading, std::int32_t turn, Gear gear, flo
               cost_of(way, turn, gear, speeds)};
     }
   }
-  if (least < 1e9F) add(heading, best);
+  if (least < 1e9F) add(moves, heading, best);
 }
+
+}  // namespace
 
 void PoseMoves::draw(const PoseSpeeds& speeds) noexcept {
   count.fill(0);
@@ -80,14 +81,13 @@ void PoseMoves::draw(const PoseSpeeds& speeds) noexcept {
   for (std::int32_t h = 0; h < PoseLattice::kHeadings; ++h) {
     for (const Gear gear : {Gear::kForward, Gear::kBackward}) {
       const std::int32_t most = gear == Gear::kForward ? 3 : 2;
-      add_best(h, 0, gear, 0.0F, speeds);
-      for (const float side : {1.0F, -1.0F}) add_best(h, 0, gear, side, speeds);
+      for (const float side : {0.0F, 1.0F, -1.0F}) add_best(*this, h, 0, gear, side, speeds);
       for (std::int32_t turn = 1; turn <= most; ++turn) {
-        add_best(h, turn, gear, 0.0F, speeds);
-        add_best(h, -turn, gear, 0.0F, speeds);
+        add_best(*this, h, turn, gear, 0.0F, speeds);
+        add_best(*this, h, -turn, gear, 0.0F, speeds);
       }
     }
-    for (const std::int8_t turn : {std::int8_t{1}, std::int8_t{-1}}) add(h, {0, 0, turn, Gear::kTurn, on_spot});
+    for (const std::int8_t turn : {std::int8_t{1}, std::int8_t{-1}}) add(*this, h, {0, 0, turn, Gear::kTurn, on_spot});
   }
 }
 

@@ -1,9 +1,8 @@
-#include "planner/cost_to_go/pose_room.h"
-
 #include <algorithm>
 #include <cmath>
 
 #include "planner/cost_to_go/nearest_surfaces.h"
+#include "planner/cost_to_go/pose_field.h"
 
 namespace jaywalk::field {
 namespace {
@@ -27,7 +26,6 @@ struct AwayFromWall {
       }
     }
   }
-  const auto& operator[](std::int32_t dj) const { return rows[dj]; }
   std::uint8_t rows[kWallNodes + 1][PoseLook::kPerCell][kWallColumns];
 };
 const AwayFromWall kAwayFromWall;
@@ -123,7 +121,7 @@ void PoseRoom::add_wall(Place at) noexcept {
     const std::int32_t from = std::max(0, -column), to = std::min(kWallColumns, kColumns - column);
     for (std::int32_t j = std::max(cj - kWallNodes, 0); j <= std::min(cj + kWallNodes, kNodes - 1); ++j) {
       std::uint8_t* const row = nodes_.data() + (phase * kNodes + j) * kColumns + column;
-      const std::uint8_t* const away = kAwayFromWall[std::abs(j - cj)][k];
+      const std::uint8_t* const away = kAwayFromWall.rows[std::abs(j - cj)][k];
       for (std::int32_t n = from; n < to; ++n) row[n] = std::min(row[n], away[n]);
     }
   }

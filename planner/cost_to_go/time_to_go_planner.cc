@@ -25,11 +25,12 @@ const PlannerConfig& checked(const PlannerConfig& config) { return check(config)
 /// Status and path of a plan, from costs that were just settled for this request. Refers to both.
 class TimeToGoPath {
  public:
-  TimeToGoPath(const CellGraph& graph, const TimeToGoRequest& request) noexcept
-      : request_(request),
-        window_(request.window),
+  TimeToGoPath(const CellGraph& graph, const PlanRequest& request, const Window& window) noexcept
+      : window_(window),
         graph_(graph),
-        own_(graph.at(window_.cell_at(request.robot_in_map))),
+        robot_(request.map_from_robot.position()),
+        goal_(request.goal_in_map),
+        own_(graph.at(window_.cell_at(robot_))),
         start_(graph.is_free(own_) ? own_ : nearest_to_robot(true)) {}
 
   /// kOk, kNoPath or kRobotBlocked. Costs are a fixed point: kNoPath is proven on the grid, unless the field is not
@@ -41,7 +42,7 @@ class TimeToGoPath {
 
   /// Of kNoPath: whether the goal is inside the window and what the robot can reach goes on beyond the window.
   [[nodiscard]] bool is_walled_off(Flood& flood) const noexcept {
-    if (!window_.holds(request_.goal_in_map, 0)) return false;
+    if (!window_.holds(goal_, 0)) return false;
     const CellIndex start = graph_.cell_of(graph_.is_free(own_) ? own_ : nearest_to_robot(false));
     flood.fill(window_.grid(), window_.grid().at(start.i, start.j), true,
                [&](std::int32_t c) { return graph_.is_free(node(c)); });
@@ -51,22 +52,21 @@ class TimeToGoPath {
   /// Of kOk: from the robot down the costs, straight on where that costs no more.
   void draw(Path& path) const noexcept {
     path.clear();
-    (void)path.push_back(request_.robot_in_map);
+    (void)path.push_back(robot_);
     if (start_ != own_) append_line(path, middle_of(start_));
     std::int32_t n = start_;
     for (std::int32_t next = straight_on(n); next != CellGraph::kNone; next = straight_on(n)) {
       if (n != start_) append_line(path, middle_of(n));
       n = next;
     }
-    const Vec2 goal = request_.goal_in_map;
-    const bool arrives = window_.holds(goal, 0) && graph_.is_free(graph_.at(window_.cell_at(goal)));
-    append_line(path, arrives ? goal : middle_of(n));  // n is then the goal's cell or beside it
+    const bool arrives = window_.holds(goal_, 0) && graph_.is_free(graph_.at(window_.cell_at(goal_)));
+    append_line(path, arrives ? goal_ : middle_of(n));  // n is then the goal's cell or beside it
   }
 
  private:
   /// Within kStartRadius_m the nearest free cell, or the nearest with a way to the goal.
   [[nodiscard]] std::int32_t nearest_to_robot(bool has_way) const noexcept {
-    const CellIndex robot = window_.cell_at(request_.robot_in_map);
+    const CellIndex robot = window_.cell_at(robot_);
     const auto radius = static_cast<std::int32_t>(std::floor(kStartRadius_m / window_.cell_m + 0.5));
     const std::int32_t c = nearest_cell(window_.grid(), robot.i, robot.j, radius, [&](std::int32_t at) {
       return has_way ? graph_.has_way(node(at)) : graph_.is_free(node(at));
@@ -115,9 +115,9 @@ class TimeToGoPath {
     return window_.in_map({cell.i + 0.5, cell.j + 0.5});
   }
 
-  const TimeToGoRequest& request_;
   const Window& window_;
   const CellGraph& graph_;
+  Vec2 robot_, goal_;
   std::int32_t own_, start_;  ///< the robot's cell; the one that its way begins in, CellGraph::kNone without one
 };
 
@@ -126,9 +126,9 @@ class TimeToGoPath {
 TimeToGoPlanner::TimeToGoPlanner(const PlannerConfig& config, std::unique_ptr<CostSettler> device)
     : device_(std::move(device)),
       window_({{0, 0}, checked(config).side_cells, config.cell_m}, config.max_side_cells),
-      cells_(config.body.inscribed_radius_m(), config.body.circumscribed_radius_m(), config.max_side_cells,
-             config.keep_out, device_.get()),
       far_(config.cell_m, config.known_map),
+      cells_(config.body.inscribed_radius_m(), config.body.circumscribed_radius_m(), config.max_side_cells,
+             config.keep_out, device_.get(), &far_),
       poses_(config.body, device_.get()),
       flood_(Grid{config.max_side_cells}.cells()),
       results_{Result(config.max_side_cells), Result(config.max_side_cells)} {}
@@ -149,37 +149,21 @@ FieldView TimeToGoPlanner::view_field() const {
 PlanStatus TimeToGoPlanner::answer(const PlanRequest& request, Plan& plan) noexcept {
   if (device_ && !device_->is_ready()) return PlanStatus::kBackendFailed;
   const PlanStatus status = plan_by_times(request, plan);
-  return device_ && device_->has_failed() ? PlanStatus::kBackendFailed : status;
+  return device_ && *device_->failure() != '\0' ? PlanStatus::kBackendFailed : status;
 }
 
 PlanStatus TimeToGoPlanner::plan_by_times(const PlanRequest& request, Plan& plan) noexcept {
   if (!is_finite(request)) return PlanStatus::kBadRequest;
-  const Vec2 robot = request.map_from_robot.position();
-  window_.place(robot, request.goal_in_map);
-  const bool is_far = !window_.now().holds(request.goal_in_map, 0);
-  if (is_far) far_.settle(request.stamp, request.still, robot, request.goal_in_map);
+  const Vec2 robot = request.map_from_robot.position(), goal = request.goal_in_map;
+  window_.place(robot, goal);
+  if (!window_.now().holds(goal, 0)) far_.settle(request.stamp, request.still, robot, goal);
   Result& result = results_[making()];
   result.window = window_.now();
-  const TimeToGoRequest asked{.window = result.window,
-                              .still = request.still,
-                              .movers = request.masked,
-                              .standing = request.standing,
-                              .robot_in_map = robot,
-                              .goal_in_map = request.goal_in_map,
-                              .speed_mps = request.speed_mps,
-                              .far = is_far ? &far_ : nullptr};
-  plan.guide = result.guide = cells_.settle(asked, result.cells);
-  if (request.poses.is_asked) {
-    plan.poses = poses_.settle({.guide = plan.guide,
-                                .map_from_robot = request.map_from_robot,
-                                .goal_in_map = request.goal_in_map,
-                                .standing = request.standing,
-                                .asked = request.poses},
-                               result.poses);
-  }
+  plan.guide = result.guide = cells_.settle(request, result.window, result.cells);
+  if (request.poses.is_asked) plan.poses = poses_.settle(request, plan.guide, result.poses);
   plan.certified = cells_.is_certified();
   plan.reach = plan.certified ? 1.0F : 0.0F;
-  const TimeToGoPath path(cells_.graph(), asked);
+  const TimeToGoPath path(cells_.graph(), request, result.window);
   const bool is_closed = path.status() == PlanStatus::kOk && plan.poses.goal_closed;
   const PlanStatus status = is_closed ? PlanStatus::kNoPath : path.status();
   if (status == PlanStatus::kOk) path.draw(plan.path);

@@ -37,8 +37,8 @@ class TimeToGoPlanner final : public AnsweringPlanner {
 
   std::unique_ptr<CostSettler> device_;
   GrowingWindow window_;
-  TimeToGoField cells_;
   FarGuide far_;
+  TimeToGoField cells_;
   PoseField poses_;
   Flood flood_;
   std::array<Result, 2> results_;  ///< as AnsweringPlanner numbers them

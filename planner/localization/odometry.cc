@@ -59,17 +59,6 @@ ArcStep Odometry::since_last(const WheelState& wheels) const noexcept {
   return believable(step, to_seconds(wheels.stamp - last_.stamp)) ? step : ArcStep{};
 }
 
-ArcStep Odometry::counted(const WheelState& wheels) const noexcept {
-  const double left = (wheels.left_rad - last_.left_rad) * drive_.wheel_radius_m;
-  const double right = (wheels.right_rad - last_.right_rad) * drive_.wheel_radius_m;
-  return {0.5 * (left + right), (right - left) / drive_.track_width_m};
-}
-
-bool Odometry::bridges(const WheelState& wheels) const noexcept {
-  return coasted_ && bridgeable_ && wheels.sequence > last_.sequence &&
-         believable(counted(wheels), to_seconds(wheels.stamp - last_.stamp));
-}
-
 ArcStep Odometry::take(const WheelState& wheels) noexcept {
   const bool bridge = bridges(wheels);
   const Pose2 from = bridge ? odom_from_robot_at_last_ : odom_from_robot();
@@ -95,19 +84,6 @@ bool Odometry::wheels_silent(Time stamp) const noexcept {
 bool Odometry::remembers(Time stamp) const noexcept {
   if (count_ == 0) return true;
   return stamp >= entries_[oldest() % kRemembered].stamp && to_seconds(stamp) - to_seconds(newest().stamp) <= kSilentS;
-}
-
-void Odometry::coast(const Pose2& before_from_after, Time stamp) noexcept {
-  if (!coasted_) bridgeable_ = has_wheels();
-  coasted_ = true;
-  twist_ = {};  // of wheels that say nothing
-  remember({stamp, odom_from_robot() * before_from_after});
-}
-
-void Odometry::remember(const Entry& entry) noexcept {
-  if (count_ > 0 && entry.stamp < newest().stamp) forgotten_ = count_;  // a clock set back: those were of other times
-  entries_[count_ % kRemembered] = entry;
-  ++count_;
 }
 
 Pose2 Odometry::at(Time stamp) const noexcept {

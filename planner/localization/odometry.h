@@ -31,13 +31,21 @@ class Odometry {
   ArcStep take(const WheelState& wheels) noexcept;
   /// Whether take() would count on from the reading before a silence, in place of what was guessed since: not after a
   /// match, nor where an encoder restarted.
-  [[nodiscard]] bool bridges(const WheelState& wheels) const noexcept;
+  [[nodiscard]] bool bridges(const WheelState& wheels) const noexcept {
+    return coasted_ && bridgeable_ && wheels.sequence > last_.sequence &&
+           believable(counted(wheels), to_seconds(wheels.stamp - last_.stamp));
+  }
   /// While it coasts: a match put it where it is, which no wheel knows better.
   void placed() noexcept { bridgeable_ = false; }
   /// From now on the robot turns by so much more with every metre than its wheels say (rad / m, to the left).
   void set_radius_bias(double turn_per_m) noexcept { radius_bias_ = turn_per_m; }
   /// While wheels are silent: moves by a pose in the robot's own frame.
-  void coast(const Pose2& before_from_after, Time stamp) noexcept;
+  void coast(const Pose2& before_from_after, Time stamp) noexcept {
+    if (!coasted_) bridgeable_ = has_wheels();
+    coasted_ = true;
+    twist_ = {};  // of wheels that say nothing
+    remember({stamp, odom_from_robot() * before_from_after});
+  }
 
   /// The newest pose is the wheels' own.
   [[nodiscard]] bool by_wheels() const { return has_wheels() && !coasted_; }
@@ -64,12 +72,20 @@ class Odometry {
     return std::max(forgotten_, count_ > kRemembered ? count_ - kRemembered : 0);
   }
   [[nodiscard]] const Entry& newest() const { return entries_[count_ == 0 ? 0 : (count_ - 1) % kRemembered]; }
-  void remember(const Entry& entry) noexcept;
+  void remember(const Entry& entry) noexcept {
+    if (count_ > 0 && entry.stamp < newest().stamp) forgotten_ = count_;  // a clock set back: those were of other times
+    entries_[count_ % kRemembered] = entry;
+    ++count_;
+  }
   [[nodiscard]] bool believable(const ArcStep& step, double seconds) const noexcept;
 
   DriveModel drive_;
   [[nodiscard]] ArcStep since_last(const WheelState& wheels) const noexcept;
-  [[nodiscard]] ArcStep counted(const WheelState& wheels) const noexcept;
+  [[nodiscard]] ArcStep counted(const WheelState& wheels) const noexcept {
+    const double left = (wheels.left_rad - last_.left_rad) * drive_.wheel_radius_m;
+    const double right = (wheels.right_rad - last_.right_rad) * drive_.wheel_radius_m;
+    return {0.5 * (left + right), (right - left) / drive_.track_width_m};
+  }
 
   WheelState last_;
   double period_s_ = 0.0;  ///< between the last two readings

@@ -44,12 +44,6 @@ void OdometryNoiseEstimator::Share::end_window() noexcept {
   believed = std::clamp(believed + kWindowGain * (worst - believed), kLeastShare, 1.0);
 }
 
-void OdometryNoiseEstimator::drove(const ArcStep& step) noexcept {
-  const OdometryNoise more = noise_of_unknown_wheels(step);
-  window_.position_var += more.position_var;
-  window_.heading_var += more.heading_var;
-}
-
 void OdometryNoiseEstimator::corrected(const Pose2& predicted, const Pose2& placed) noexcept {
   if (!begun_) return begin();
   moved_in_map_ = moved_in_map_ + (placed.position() - predicted.position());
@@ -60,13 +54,6 @@ void OdometryNoiseEstimator::corrected(const Pose2& predicted, const Pose2& plac
   turns_.end_window();
   metres_.end_window();
   begin();
-}
-
-void OdometryNoiseEstimator::begin() noexcept {
-  begun_ = true;
-  window_ = {};
-  moved_in_map_ = {};
-  turned_ = metres_.worst = turns_.worst = 0.0;
 }
 
 void WheelRadiusBias::corrected(double turn_rad) noexcept {

@@ -32,7 +32,11 @@ class OdometryNoiseEstimator {
   [[nodiscard]] double turns() const { return turns_.beside(metres_); }
   [[nodiscard]] bool nothing_known() const { return metres_.believed >= 1.0 || turns_.believed >= 1.0; }
 
-  void drove(const ArcStep& step) noexcept;
+  void drove(const ArcStep& step) noexcept {
+    const OdometryNoise more = noise_of_unknown_wheels(step);
+    window_.position_var += more.position_var;
+    window_.heading_var += more.heading_var;
+  }
   /// After each match: where the wheels had taken the robot, and where the map has it.
   void corrected(const Pose2& predicted, const Pose2& placed) noexcept;
   /// The pose was moved by something else than scans: what has moved in this window tells nothing.
@@ -55,7 +59,12 @@ class OdometryNoiseEstimator {
     }
     void end_window() noexcept;
   };
-  void begin() noexcept;
+  void begin() noexcept {
+    begun_ = true;
+    window_ = {};
+    moved_in_map_ = {};
+    turned_ = metres_.worst = turns_.worst = 0.0;
+  }
 
   Share metres_, turns_;
   bool begun_ = false;

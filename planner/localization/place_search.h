@@ -1,39 +1,13 @@
 #pragma once
-// Search for a lost place: from which pose a scan was taken, within reach of another.
-#include <algorithm>
-#include <cmath>
+// Searches for the pose from which a scan was taken: within reach of another while the loop runs, or on a whole map.
 #include <cstdint>
 #include <vector>
 
 #include "hal/types/geometry.h"
 #include "planner/localization/scan_matcher.h"
+#include "planner/mapping/known_map.h"
 
 namespace jaywalk {
-// Lattice of poses and rules of visibility that both searches of a place share: on a map before the start
-// (global_search.h), and about a pose while the loop runs (PlaceSearch).
-
-inline constexpr std::int32_t kLatticeCells = 2;                        ///< from a place to the next
-inline constexpr int kLatticeHeadings = 90;                             ///< in a turn
-inline constexpr std::int32_t kNearCells = 3;                           ///< half a step moves points 8 m off so far
-inline constexpr double kPlacesApart_m = 1.0, kPlacesApart_rad = 0.52;  ///< nearer poses are one place
-inline constexpr double kBeforePoint_m = 0.3;                           ///< a wall this much nearer hides a point
-
-[[nodiscard]] inline bool are_places_apart(const Pose2& a, const Pose2& b) noexcept {
-  return distance(a.position(), b.position()) > kPlacesApart_m ||
-         std::fabs(wrap_angle(a.heading - b.heading)) > kPlacesApart_rad;
-}
-
-/// True where a wall hides `point` from the laser: a beam does not pass through one (Thrun, Burgard, Fox: Probabilistic
-/// Robotics, 2005, 6.3). `is_wall(place)` is asked every `step_m`.
-template <class IsWall>
-[[nodiscard]] bool is_hidden(Vec2 laser, Vec2 point, double step_m, const IsWall& is_wall) {
-  const double range = distance(laser, point);
-  const Vec2 along = (point - laser) * (1.0 / std::max(range, step_m));
-  for (double gone = step_m; gone < range - kBeforePoint_m; gone += step_m)
-    if (is_wall(laser + along * gone)) return true;
-  return false;
-}
-
 /// A sample of a scan's points, and from where the laser saw each; both in the robot's frame.
 struct SeenSample {
   MatchSample points;
@@ -49,13 +23,19 @@ struct PlaceFit {
   double known = 0.0;     ///< share of the points of which the map knows what is there
   [[nodiscard]] double fit() const noexcept { return known > 0.0 ? on_walls / known : 0.0; }
   /// Most of what the map knows of it fits.
-  [[nodiscard]] bool fits() const noexcept;
+  [[nodiscard]] bool fits() const noexcept { return fit() >= kFits; }
   /// The scan may have been taken there: most of it is known, and most of what is known fits.
-  [[nodiscard]] bool is_good() const noexcept;
+  [[nodiscard]] bool is_good() const noexcept { return known >= kKnown && fits(); }
   /// The map knows too little of what the scan shows to say anything.
-  [[nodiscard]] bool says_nothing() const noexcept;
-  /// True where it explains the scan so much better than `other` that only one of the two can be right.
-  [[nodiscard]] bool is_clearly_better_than(const PlaceFit& other) const noexcept;
+  [[nodiscard]] bool says_nothing() const noexcept { return known < kSaysNothing; }
+  /// True where it explains the scan so much better than `other` that only one of the two can be right: the map
+  /// contradicts a smaller share of the points, by kClearly. Places that it knows little of contradict nothing.
+  [[nodiscard]] bool is_clearly_better_than(const PlaceFit& other) const noexcept {
+    return on_walls > other.on_walls && known - on_walls + kClearly < other.known - other.on_walls;
+  }
+
+  /// Shares of the points known, and of these on walls; people stand before the others (robot_tests "[carried]").
+  static constexpr double kKnown = 0.5, kFits = 0.7, kSaysNothing = 0.3, kClearly = 0.1;
 };
 
 /// Search for the place, within 12.8 m of another, from which a scan was taken.
@@ -106,5 +86,19 @@ class PlaceSearch {
   FixedVector<Candidate, kMostCandidates> candidates_;
   PlaceFit best_;
 };
+
+/// Where on a map a scan was taken, and how surely.
+struct GlobalMatch {
+  Pose2 map_from_robot;
+  double share = 0.0;          ///< of the points that lie on walls there with no wall before them, 0 to 1
+  std::optional<Pose2> other;  ///< the best pose more than a metre or 30 degrees off
+  double other_share = 0.0;
+};
+
+/// Correlative search over all free cells and headings: which pose puts most of the scan on walls. In steps of 0.2 m
+/// and 4 degrees, then about the best in steps of 5 cm and 1 degree. Of these the pose counts at which most points are
+/// walls that the laser, `laser_in_robot`, can see: a beam does not pass through a wall (Thrun, Burgard, Fox:
+/// Probabilistic Robotics, 2005, 6.3). Seconds for a hall of 50 m: for start-up, it allocates.
+[[nodiscard]] GlobalMatch search_everywhere(const KnownMap& map, const MatchSample& sample, Vec2 laser_in_robot);
 
 }  // namespace jaywalk

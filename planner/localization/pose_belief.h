@@ -14,12 +14,18 @@ struct PoseBelief {
   Eigen::Matrix3d covariance;
 };
 
-[[nodiscard]] Eigen::Matrix3d diagonal(double xx, double yy, double hh) noexcept;
+[[nodiscard]] inline Eigen::Matrix3d diagonal(double xx, double yy, double hh) noexcept {
+  return Eigen::Vector3d(xx, yy, hh).asDiagonal();
+}
 
 /// `by` in the map's directions, and turned.
-[[nodiscard]] Pose2 moved(const Pose2& pose, const Eigen::Vector3d& by) noexcept;
+[[nodiscard]] inline Pose2 moved(const Pose2& pose, const Eigen::Vector3d& by) noexcept {
+  return {pose.x + by.x(), pose.y + by.y(), wrap_angle(pose.heading + by.z())};
+}
 /// What to be moved by to get from one to the other; the turn in [-pi, pi).
-[[nodiscard]] Eigen::Vector3d offset(const Pose2& from, const Pose2& to) noexcept;
+[[nodiscard]] inline Eigen::Vector3d offset(const Pose2& from, const Pose2& to) noexcept {
+  return {to.x - from.x, to.y - from.y, wrap_angle(to.heading - from.heading)};
+}
 
 /// Normalised innovation squared: the squared Mahalanobis distance of two poses, chi-squared of three where
 /// `covariance` is that of their difference (Bar-Shalom and others 2001, 5.4.2).

@@ -157,13 +157,6 @@ void mask_moving_tracks(std::span<const Track> moving, const Pose2& map_from_rob
   }
 }
 
-MatchSample sample_of(const ScanPoints& scan) noexcept {
-  MatchSample out;
-  const std::size_t stride = (scan.size() + kMostMatchPoints - 1) / kMostMatchPoints;
-  for (std::size_t k = 0; k < scan.size(); k += stride) (void)out.push_back(scan[k].in_robot);
-  return out;
-}
-
 MatchResult match_sample(const MatchSample& sample, const ScanReference& reference,
                          const PoseBelief& predicted) noexcept {
   MatchResult result{.belief = predicted};

@@ -38,8 +38,13 @@ struct MatchResult {
   std::uint32_t points_used = 0;
 };
 
-/// Every n-th of the scan's points, kMostMatchPoints at most.
-[[nodiscard]] MatchSample sample_of(const ScanPoints& scan) noexcept;
+/// Every n-th of the scan's points, `most` at most; that is at most kMostMatchPoints.
+[[nodiscard]] inline MatchSample sample_of(const ScanPoints& scan, std::size_t most = kMostMatchPoints) noexcept {
+  MatchSample out;
+  const std::size_t stride = (scan.size() + most - 1) / most;
+  for (std::size_t k = 0; k < scan.size(); k += stride) (void)out.push_back(scan[k].in_robot);
+  return out;
+}
 
 /// Matches points in the robot's frame, in two steps. A search over a small window of poses (correlative_search) counts
 /// how much of the scan falls on occupied cells: it finds the right valley. Then Gauss and Newton, from there: each

@@ -16,40 +16,6 @@ constexpr double kLongestHitS = 0.25;  // one hit after a gap is one hit
 
 }  // namespace
 
-EvidenceMap::EvidenceMap(std::int32_t side_cells, double cell_m, Vec2 centre_in_map)
-    : side_(side_cells),
-      cell_m_(cell_m),
-      evidence_(static_cast<std::size_t>(side_cells) * static_cast<std::size_t>(side_cells), 0),
-      seen_for_(evidence_.size(), 0),
-      surface_(evidence_.size()),
-      to_laser_(evidence_.size()),
-      changed_(evidence_.size() / kPiece) {
-  const CellIndex centre = cell_at(centre_in_map);
-  low_ = {centre.i - side_ / 2, centre.j - side_ / 2};
-}
-
-template <class T>
-void EvidenceMap::copy_row_of(const std::vector<T>& values, CellIndex first, std::int32_t n, T* to) const noexcept {
-  std::fill_n(to, n, T{});
-  if (!within(first.j, low_.j)) return;
-  const std::int32_t end = std::min(first.i + n, low_.i + side_);
-  for (std::int32_t i = std::max(first.i, low_.i); i < end;) {  // a piece up to where the torus closes
-    const std::size_t from = slot({i, first.j});
-    const std::int32_t to_seam = side_ - static_cast<std::int32_t>(from % static_cast<std::size_t>(side_));
-    const std::int32_t piece = std::min(end - i, to_seam);
-    std::copy_n(values.begin() + static_cast<std::ptrdiff_t>(from), piece, to + (i - first.i));
-    i += piece;
-  }
-}
-
-void EvidenceMap::copy_row(CellIndex first, std::int32_t n, std::int8_t* to) const noexcept {
-  copy_row_of(evidence_, first, n, to);
-}
-
-void EvidenceMap::copy_row_of_surfaces(CellIndex first, std::int32_t n, Offset* to) const noexcept {
-  copy_row_of(surface_, first, n, to);
-}
-
 void EvidenceMap::follow(const EvidenceMap& from) noexcept {
   if (followed_ != &from || changes_ > from.changes_ || side_ != from.side_) {
     *this = from;
@@ -110,11 +76,6 @@ void EvidenceMap::tell(CellIndex cell, int evidence, Vec2 surface, Vec2 free_sid
   note_change(k);
 }
 
-Vec2 EvidenceMap::surface(CellIndex cell) const {
-  const Offset& offset = surface_[slot(cell)];
-  return centre_of(cell) + Vec2{offset.x * 1.0, offset.y * 1.0} * (0.5 * cell_m_ / 128.0);
-}
-
 Vec2 EvidenceMap::to_laser(CellIndex cell) const {
   const Offset& towards = to_laser_[slot(cell)];
   if (towards.x == kToldOnly) {
@@ -123,16 +84,6 @@ Vec2 EvidenceMap::to_laser(CellIndex cell) const {
     return side * (1.0 / std::max(1.0, norm(side)));
   }
   return {towards.x / kUnit, towards.y / kUnit};
-}
-
-void EvidenceMap::forget(CellIndex cell) noexcept {
-  if (!contains(cell)) return;
-  const std::size_t k = slot(cell);
-  evidence_[k] = 0;
-  seen_for_[k] = 0;
-  surface_[k] = {};
-  to_laser_[k] = {};
-  note_change(k);
 }
 
 void EvidenceMap::roll_to(Vec2 centre_in_map) noexcept {

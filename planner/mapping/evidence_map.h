@@ -29,7 +29,17 @@ class EvidenceMap {
   };
 
   /// `side_cells` is a power of two; `cell_m` > 0. The window is centred on `centre_in_map`.
-  EvidenceMap(std::int32_t side_cells, double cell_m, Vec2 centre_in_map);
+  EvidenceMap(std::int32_t side_cells, double cell_m, Vec2 centre_in_map)
+      : side_(side_cells),
+        cell_m_(cell_m),
+        evidence_(static_cast<std::size_t>(side_cells) * static_cast<std::size_t>(side_cells), 0),
+        seen_for_(evidence_.size(), 0),
+        surface_(evidence_.size()),
+        to_laser_(evidence_.size()),
+        changed_(evidence_.size() / kPiece) {
+    const CellIndex centre = cell_at(centre_in_map);
+    low_ = {centre.i - side_ / 2, centre.j - side_ / 2};
+  }
 
   [[nodiscard]] std::int32_t side() const { return side_; }
   [[nodiscard]] double cell_m() const { return cell_m_; }
@@ -54,7 +64,9 @@ class EvidenceMap {
     return contains(cell) ? evidence_[slot(cell)] : std::int8_t{0};
   }
   /// The evidence of `n` cells from `first` on eastwards, as evidence() has it: many at a time.
-  void copy_row(CellIndex first, std::int32_t n, std::int8_t* to) const noexcept;
+  void copy_row(CellIndex first, std::int32_t n, std::int8_t* to) const noexcept {
+    copy_row_of(evidence_, first, n, to);
+  }
   [[nodiscard]] bool occupied(CellIndex cell) const { return evidence(cell) > kOccupied; }
   [[nodiscard]] bool seen_free(CellIndex cell) const { return evidence(cell) < kFree; }
   /// Occupied, and hits were seen for kStandsAfterS of scans: longer than a walker stays in a cell.
@@ -64,7 +76,9 @@ class EvidenceMap {
 
   /// The same of where surfaces lie in their cells, as they are kept: for telling whether any has moved. Outside the
   /// window 0; meaningless likewise for cells that are not occupied.
-  void copy_row_of_surfaces(CellIndex first, std::int32_t n, Offset* to) const noexcept;
+  void copy_row_of_surfaces(CellIndex first, std::int32_t n, Offset* to) const noexcept {
+    copy_row_of(surface_, first, n, to);
+  }
 
   /// Becomes as `from` is, of the same side. Where it is a copy that has followed the same map before, and nothing else
   /// has changed it, what has changed since is copied, 64 cells at a time.
@@ -82,11 +96,22 @@ class EvidenceMap {
   void tell(CellIndex cell, int evidence, Vec2 surface_in_map, Vec2 free_side = {}) noexcept;
   /// Where the surface in an occupied cell lies (m, in the map): the mean of its recent points. The cell's centre
   /// where nothing but add() was called. Meaningless for cells that are not occupied.
-  [[nodiscard]] Vec2 surface(CellIndex cell) const;
+  [[nodiscard]] Vec2 surface(CellIndex cell) const {
+    const Offset& offset = surface_[slot(cell)];
+    return centre_of(cell) + Vec2{offset.x * 1.0, offset.y * 1.0} * (0.5 * cell_m_ / 128.0);
+  }
   /// Which way the lasers were that saw it: a mean of unit vectors, 0 where nobody knows. Meaningless likewise.
   [[nodiscard]] Vec2 to_laser(CellIndex cell) const;
   /// As if the cell had never been seen; nothing happens outside the window.
-  void forget(CellIndex cell) noexcept;
+  void forget(CellIndex cell) noexcept {
+    if (!contains(cell)) return;
+    const std::size_t k = slot(cell);
+    evidence_[k] = 0;
+    seen_for_[k] = 0;
+    surface_[k] = {};
+    to_laser_[k] = {};
+    note_change(k);
+  }
   /// Rolls the window, unless it is centred within a quarter side of `centre_in_map`. Cells that enter are unknown.
   void roll_to(Vec2 centre_in_map) noexcept;
 
@@ -112,7 +137,18 @@ class EvidenceMap {
     return static_cast<std::uint32_t>(at) - static_cast<std::uint32_t>(low) < static_cast<std::uint32_t>(side_);
   }
   template <class T>
-  void copy_row_of(const std::vector<T>& values, CellIndex first, std::int32_t n, T* to) const noexcept;
+  void copy_row_of(const std::vector<T>& values, CellIndex first, std::int32_t n, T* to) const noexcept {
+    std::fill_n(to, n, T{});
+    if (!within(first.j, low_.j)) return;
+    const std::int32_t end = std::min(first.i + n, low_.i + side_);
+    for (std::int32_t i = std::max(first.i, low_.i); i < end;) {  // a piece up to where the torus closes
+      const std::size_t from = slot({i, first.j});
+      const std::int32_t to_seam = side_ - static_cast<std::int32_t>(from % static_cast<std::size_t>(side_));
+      const std::int32_t piece = std::min(end - i, to_seam);
+      std::copy_n(values.begin() + static_cast<std::ptrdiff_t>(from), piece, to + (i - first.i));
+      i += piece;
+    }
+  }
   void note_change(std::size_t k) noexcept { changed_[k / kPiece] = ++changes_; }
 
   static constexpr std::size_t kPiece = 64;

@@ -32,10 +32,6 @@ bool is_inside(const KnownMap& known, CellIndex at) {
 constexpr double kNode_m = 0.1, kFar_m = static_cast<double>(KeepOut::kFar_m);
 constexpr double kRim_m = kFar_m + kZoneMargin_m + 2.0 * kNode_m;  ///< beyond it every zone is far
 
-void hold(const MapZone& zone, Box2& box) {
-  for (const Vec2 corner : zone.corners) box.hold(corner);
-}
-
 std::int32_t nodes_in(double metres) { return static_cast<std::int32_t>(std::floor(metres / kNode_m)); }
 
 }  // namespace
@@ -59,10 +55,7 @@ void enter(const KnownMap& known, EvidenceMap& map, std::optional<CellIndex> bef
 }
 
 KeepOutField::KeepOutField(std::span<const MapZone> zones) {
-  Box2 all;
-  for (const MapZone& zone : zones) {
-    if (zone.kind == ZoneKind::kKeepOut) hold(zone, all);
-  }
+  const Box2 all = box_of_keep_out(zones);
   if (all.is_empty()) return;
   low_ = {std::floor((all.low.x - kRim_m) / kNode_m) * kNode_m, std::floor((all.low.y - kRim_m) / kNode_m) * kNode_m};
   width_ = nodes_in(all.high.x + kRim_m - low_.x) + 1;
@@ -74,8 +67,7 @@ KeepOutField::KeepOutField(std::span<const MapZone> zones) {
 }
 
 void KeepOutField::add(const MapZone& zone) {
-  Box2 box;
-  hold(zone, box);
+  const Box2 box = box_of_keep_out({&zone, 1});
   const std::int32_t i0 = nodes_in(box.low.x - kRim_m - low_.x), j0 = nodes_in(box.low.y - kRim_m - low_.y);
   const std::int32_t i1 = nodes_in(box.high.x + kRim_m - low_.x), j1 = nodes_in(box.high.y + kRim_m - low_.y);
   for (std::int32_t j = std::max(j0, 0); j <= std::min(j1, height_ - 1); ++j) {

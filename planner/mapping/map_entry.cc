@@ -35,35 +35,9 @@ struct AxisWalk {
   }
 };
 
-}  // namespace
-
-double wall_noise_m(double range) noexcept { return kWallNoiseM + kWallNoisePerM * range; }
-
-Ground ground_at(const EvidenceMap& still, Vec2 p, double range) noexcept {
-  const CellIndex cell = still.cell_at(p);
-  const double near = wall_noise_m(range);
-  const std::int32_t reach = near > still.cell_m() ? 2 : 1;
-  for (std::int32_t j = -reach; j <= reach; ++j) {
-    for (std::int32_t i = -reach; i <= reach; ++i) {
-      const CellIndex c{cell.i + i, cell.j + j};
-      if (still.stands(c) && distance(still.surface(c), p) < near) return Ground::kWall;
-    }
-  }
-  return still.seen_free(cell) ? Ground::kFree : Ground::kUnknown;
-}
-
-MapEntry::MapEntry(const EvidenceMap& map)
-    : visited_in_(static_cast<std::size_t>(map.side()) * static_cast<std::size_t>(map.side()), 0) {}
-
-bool MapEntry::first_visit(std::size_t slot) noexcept {
-  if (visited_in_[slot] == scan_) return false;
-  visited_in_[slot] = scan_;
-  return true;
-}
-
 /// Calls `visit(cell, left)` for each cell that the line crosses but the last; `left`: cells to the line's end.
 template <class Visit>
-void MapEntry::for_each_crossed(const EvidenceMap& map, Vec2 from, Vec2 to, Visit visit) noexcept {
+void for_each_crossed(const EvidenceMap& map, Vec2 from, Vec2 to, Visit visit) {
   CellIndex cell = map.cell_at(from);
   const CellIndex end = map.cell_at(to);
   AxisWalk x(from.x, to.x - from.x, cell.i, map.cell_m()), y(from.y, to.y - from.y, cell.j, map.cell_m());
@@ -80,6 +54,23 @@ void MapEntry::for_each_crossed(const EvidenceMap& map, Vec2 from, Vec2 to, Visi
       y.next += y.each;
     }
   }
+}
+
+}  // namespace
+
+double wall_noise_m(double range) noexcept { return kWallNoiseM + kWallNoisePerM * range; }
+
+Ground ground_at(const EvidenceMap& still, Vec2 p, double range) noexcept {
+  const CellIndex cell = still.cell_at(p);
+  const double near = wall_noise_m(range);
+  const std::int32_t reach = near > still.cell_m() ? 2 : 1;
+  for (std::int32_t j = -reach; j <= reach; ++j) {
+    for (std::int32_t i = -reach; i <= reach; ++i) {
+      const CellIndex c{cell.i + i, cell.j + j};
+      if (still.stands(c) && distance(still.surface(c), p) < near) return Ground::kWall;
+    }
+  }
+  return still.seen_free(cell) ? Ground::kFree : Ground::kUnknown;
 }
 
 /// The cell that the beam ends in is left out: it ends just behind the last.

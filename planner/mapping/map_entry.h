@@ -42,7 +42,8 @@ void free_under(EvidenceMap& map, const Pose2& map_from_robot, const Footprint& 
 /// at most once a scan, and an end counts more than a passing beam. Memory: 2 bytes a cell, taken in the constructor.
 class MapEntry {
  public:
-  explicit MapEntry(const EvidenceMap& map);
+  explicit MapEntry(const EvidenceMap& map)
+      : visited_in_(static_cast<std::size_t>(map.side()) * static_cast<std::size_t>(map.side()), 0) {}
 
   /// The first `count` of `points_in_map` and `entries`; all free the cells before them. `step_s`: since the last scan.
   void enter(EvidenceMap& map, Vec2 laser_in_map, const std::array<Vec2, kMaxBeams>& points_in_map,
@@ -53,10 +54,8 @@ class MapEntry {
   static void mark_observed(EvidenceMap& map, Vec2 laser_in_map, Vec2 to_in_map) noexcept;
 
  private:
-  [[nodiscard]] bool first_visit(std::size_t slot) noexcept;
+  [[nodiscard]] bool first_visit(std::size_t slot) noexcept { return std::exchange(visited_in_[slot], scan_) != scan_; }
   void free_along(EvidenceMap& map, Vec2 from, Vec2 to) noexcept;
-  template <class Visit>
-  static void for_each_crossed(const EvidenceMap& map, Vec2 from, Vec2 to, Visit visit) noexcept;
 
   std::uint16_t scan_ = 0;
   std::vector<std::uint16_t> visited_in_;  ///< the scan that last touched the cell, on the map's own torus

@@ -32,13 +32,6 @@ CellIndex Window::cell_at(Vec2 p) const {
 
 Vec2 Window::in_cells(Vec2 p) const { return {cells(p.x, cell_m) - low.i, cells(p.y, cell_m) - low.j}; }
 
-Vec2 Window::in_map(Vec2 p) const { return {(p.x + low.i) * cell_m, (p.y + low.j) * cell_m}; }
-
-bool Window::holds(Vec2 p, std::int32_t margin) const {
-  const CellIndex c = cell_at(p);
-  return c.i >= margin && c.j >= margin && c.i < side - margin && c.j < side - margin;
-}
-
 Window placed(const Window& now, Vec2 robot, Vec2 goal) {
   constexpr std::int32_t kLeastMargin = 5;
   const bool goal_inside = now.holds(goal, 0);

@@ -94,9 +94,14 @@ struct Window {
   [[nodiscard]] CellIndex cell_at(Vec2 p_in_map) const;
   /// A point in cells from the window's low corner: the centre of cell (0, 0) is (0.5, 0.5).
   [[nodiscard]] Vec2 in_cells(Vec2 p_in_map) const;
-  [[nodiscard]] Vec2 in_map(Vec2 p_in_cells) const;
+  [[nodiscard]] Vec2 in_map(Vec2 p_in_cells) const {
+    return {(p_in_cells.x + low.i) * cell_m, (p_in_cells.y + low.j) * cell_m};
+  }
   /// Whether a point lies inside with `margin` cells to spare.
-  [[nodiscard]] bool holds(Vec2 p_in_map, std::int32_t margin) const;
+  [[nodiscard]] bool holds(Vec2 p_in_map, std::int32_t margin) const {
+    const CellIndex c = cell_at(p_in_map);
+    return c.i >= margin && c.j >= margin && c.i < side - margin && c.j < side - margin;
+  }
 };
 
 inline constexpr std::int32_t kWindowBlock = 16;  ///< cells by which a window moves

@@ -28,10 +28,7 @@ template <class Look>
 void try_all(const Situation& situation, bool constant_speed, std::uint32_t number, const Trajectory& best,
              Trajectory& trial, const Look& look) {
   const TrajectoryProposals proposals(situation, constant_speed ? situation.body.bounds.speed : 0.0F);
-  for (int n = 0; n < proposals.count(); ++n) {
-    proposals.make(n, trial);
-    look(trial);
-  }
+  proposals.each(trial, look);
   for (int round = 0; round < kRounds; ++round) {
     const Trajectory base = best;
     for (const int half : kSmoothedOver) {
@@ -55,7 +52,7 @@ void GoalRollouts::observe(const World& world, const Intent& intent) noexcept {
   stands_there_ = intent.kind == Intent::Kind::kGoal && is_there(world);
   const bool near = distance(world.map_from_robot.position(), world.input.goal_in_map) < setup_.goal_tolerance_m;
   status_.turns_at_goal = !setup_.constant_speed && world.input.wants_heading() && near && !stands_there_;
-  status_.turn_blocked = status_.turns_at_goal && stall_.for_s > kTurnBlocked_s;
+  status_.turn_blocked = status_.turns_at_goal && decision_.stall.for_s > kTurnBlocked_s;
   status_.rests_on = lost ? kNever : std::min(decision_.seen, world.plan.stamp);
 }
 
@@ -88,43 +85,32 @@ void GoalRollouts::choose(const World& world, const Guide& guide) noexcept {
   decision_.goal_heading = decision_.wants_heading ? static_cast<float>(world.input.goal_heading_rad) : 0.0F;
   decision_.faces_rad =
       std::min(price::kFacesRad, kFacesShare * static_cast<float>(world.input.goal_heading_tolerance_rad));
-  const PoseGuide& poses = world.plan.poses;
-  Situation situation = this->situation(guide, poses);
+  Situation situation = this->situation(guide, world.plan.poses);
   note_progress(situation, world.now);
-  situation.stall = decision_.stall = stall_;
-  best_cost_ = {.time = 1e9F, .hit_share = 1.0F};
-  Cost to_beat = best_cost_;
+  situation.stall = decision_.stall;
+  Trajectory best, trial;
+  Cost least{.time = 1e9F, .hit_share = 1.0F}, to_beat = least;
   decision_.went_on = holds(world.now);
   if (decision_.went_on) {
-    decision_.last = best_ = rest_of_decision(world.now);
-    to_beat = best_cost_ = trajectory_cost(situation, best_, 1e9F);
+    decision_.last = best = rest_of_decision(world.now);
+    to_beat = least = trajectory_cost(situation, best, 1e9F);
   }
-  try_all(situation, setup_.constant_speed, decision_.number, best_, trial_, [&](const Trajectory& trial) {
-    const Cost cost = trajectory_cost(situation, trial, best_cost_.is_safe() ? best_cost_.total() : 1e9F);
-    if (cost.is_better_than(best_cost_)) best_ = trial, best_cost_ = cost;
+  try_all(situation, setup_.constant_speed, decision_.number, best, trial, [&](const Trajectory& tried) {
+    const Cost cost = trajectory_cost(situation, tried, least.is_safe() ? least.total() : 1e9F);
+    if (cost.is_better_than(least)) best = tried, least = cost;
   });
-  if (decision_.went_on && !best_cost_.is_better_than(to_beat, kLeastGain)) best_ = decision_.last;
-  decision_.trajectory = best_;
-  decision_.cost = trajectory_cost(situation, best_, 1e9F, decision_.driven.data());
+  if (decision_.went_on && !least.is_better_than(to_beat, kLeastGain)) best = decision_.last;
+  decision_.trajectory = best;
+  decision_.cost = trajectory_cost(situation, best, 1e9F, decision_.driven.data());
 }
 
 Situation GoalRollouts::situation(const Guide& guide, const PoseGuide& poses) const noexcept {
-  return {body_,
-          guide,
-          *futures_,
-          returns_,
-          decision_.start,
-          decision_.goal,
-          decision_.turned,
-          decision_.stall,
-          (decision_.wants_heading ? kTurnWithin : kArriveWithin) * static_cast<float>(setup_.goal_tolerance_m),
-          nullptr,
-          setup_.constant_speed ? nullptr : &poses,
-          decision_.goal_heading,
-          decision_.wants_heading,
-          decision_.faces_rad,
-          conflict_price(),
-          decision_.known_behind};
+  const float within = decision_.wants_heading ? kTurnWithin : kArriveWithin;
+  return {decision_,       body_,
+          guide,           *futures_,
+          returns_,        within * static_cast<float>(setup_.goal_tolerance_m),
+          nullptr,         setup_.constant_speed ? nullptr : &poses,
+          conflict_price()};
 }
 
 std::vector<Alternative> GoalRollouts::alternatives(const Plan& plan) const {
@@ -153,39 +139,41 @@ float GoalRollouts::conflict_price() const noexcept {
     const bool walks = b.is_pedestrian && !b.has_stood();
     if (walks && dx * dx + dy * dy < price::kAboutM * price::kAboutM) walked_mps += b.usual_mps;
   }
-  walked_mps += 0.5F * static_cast<float>(memory_.hidden().size()) / kFutures * memory_.turning().usual_mps;
+  walked_mps += 0.5F * static_cast<float>(memory_.hidden().size()) * memory_.turning().usual_mps;
   const float met_hz = walked_mps * price::kMetWidthM / (cell::kPiF * price::kAboutM * price::kAboutM);
   return std::clamp(1.0F / std::max(met_hz, 1e-3F), price::kLeastConflict, price::kConflict);
 }
 
 void GoalRollouts::note_progress(const Situation& situation, Time now) noexcept {
+  StallState& stall = decision_.stall;
   const bool is_new = stalled_since_ == kNever || now < noted_;
   const auto since_s = static_cast<float>(is_new ? 0.0 : std::min(1.0, to_seconds(now - noted_)));
   noted_ = now;
   note_turning(situation.start, since_s);
   const float to_go_s = situation.time_to_go(decision_.start), rise_s = to_go_s - to_go_s_;
   const bool map_changed = std::fabs(rise_s) > kMapChanges_s;
-  if (map_changed) stall_.least_to_go_s += rise_s;
+  if (map_changed) stall.least_to_go_s += rise_s;
   to_go_s_ = to_go_s;
-  const float lost_s = stall_.lost_s + since_s - price::kWonBack * (map_changed ? 0.0F : -rise_s);
-  stall_.lost_s = is_new ? 0.0F : std::clamp(lost_s, 0.0F, price::kMostLostS);
-  if (is_new || stall_.gets_on(to_go_s)) {
-    stall_.least_to_go_s = to_go_s;
-    stall_.wound_rad = 0.0F;
+  const float lost_s = stall.lost_s + since_s - price::kWonBack * (map_changed ? 0.0F : -rise_s);
+  stall.lost_s = is_new ? 0.0F : std::clamp(lost_s, 0.0F, price::kMostLostS);
+  if (is_new || stall.gets_on(to_go_s)) {
+    stall.least_to_go_s = to_go_s;
+    stall.wound_rad = 0.0F;
     stalled_since_ = now;
   }
   const std::span<const MoverBelief> beliefs = memory_.beliefs();
-  stall_.is_alone = memory_.hidden().empty() &&
-                    std::all_of(beliefs.begin(), beliefs.end(), [](const MoverBelief& b) { return b.newcomer; });
-  stall_.for_s = static_cast<float>(to_seconds(now - stalled_since_));
+  stall.is_alone = memory_.hidden().empty() &&
+                   std::all_of(beliefs.begin(), beliefs.end(), [](const MoverBelief& b) { return b.newcomer; });
+  stall.for_s = static_cast<float>(to_seconds(now - stalled_since_));
 }
 
 /// A robot at rest forgets how far it has turned: to turn on is then no circle.
 void GoalRollouts::note_turning(const RobotState& now, float since_s) noexcept {
-  const float wound = stall_.wound_rad + cell::wrapped(now.heading - heading_);
+  StallState& stall = decision_.stall;
+  const float wound = stall.wound_rad + cell::wrapped(now.heading - heading_);
   const bool rests = std::fabs(now.v) < kRestsMps && std::fabs(now.w) < kRestsMps;
   const float forgotten = rests ? price::kUnwindsRadps * since_s : 0.0F;
-  stall_.wound_rad = std::copysign(std::max(0.0F, std::fabs(wound) - forgotten), wound);
+  stall.wound_rad = std::copysign(std::max(0.0F, std::fabs(wound) - forgotten), wound);
   heading_ = now.heading;
 }
 

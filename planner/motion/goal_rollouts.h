@@ -5,13 +5,6 @@
 
 namespace jaywalk::motion {
 
-/// A trajectory that was tried, for pictures.
-struct Alternative {
-  Trajectory trajectory;
-  Cost cost;
-  std::array<RobotState, kSteps> driven{};
-};
-
 /// Roll-outs to a goal, over the plan's guide: ways along the guide, arcs, pauses and straight escapes, and what is
 /// left of the decision before, which stays unless another is better by kLeastGain.
 ///
@@ -40,9 +33,6 @@ class GoalRollouts final : public RolloutMotion {
   void note_turning(const RobotState& now, float since_s) noexcept;
   [[nodiscard]] bool is_there(const World& world) const noexcept;
 
-  Trajectory trial_, best_;
-  Cost best_cost_;
-  StallState stall_;
   Time stalled_since_ = kNever, noted_ = kNever;  ///< `noted_`: the last decision
   bool stands_there_ = false;                     ///< at the goal, with the heading wanted
   float turned_ = 0.0F;                           ///< the side that it turned to last

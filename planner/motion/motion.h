@@ -26,7 +26,7 @@ struct World {
   Time now = kNever;
   bool new_scan = false, new_plan = false;  ///< since the tick before; a plan counts while there is a goal
   Pose2 map_from_robot{};
-  Twist2 wanted{}, driven{};  ///< asked for last, and what the supervisor made of it
+  Twist2 driven{};  ///< asked for last, as far as the supervisor permitted
   const OperatorInput& input;
   const LaserScan& scan;   ///< the newest
   Pose2 map_from_laser{};  ///< at that scan

@@ -71,7 +71,7 @@ float NearReturns::braked_share(const RobotState& robot, const RobotBody& body) 
   float least = Rules::kMargin_m + kEdgeM;
   for (std::size_t k = 0; k < count_; ++k) least = gaps[k] < gap_[k] && gaps[k] < least ? gaps[k] : least;
   if (least >= Rules::kMargin_m + kEdgeM) return 0.0F;
-  const float rim = std::fabs(robot.v) + std::fabs(robot.w) * body.rim_m,
+  const float rim = body.rim_mps(robot),
               creep = is_beside() && least > nearest_ - Rules::kSwing_m ? Rules::kCreep_mps : 0.0F,
               may = std::max(Rules::permitted_rim(least - kEdgeM), creep);
   return rim > may ? 1.0F - may / rim : 0.0F;

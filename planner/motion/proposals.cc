@@ -2,33 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
+#include "planner/cell/cell.h"
 #include "planner/cell/draws.h"
-#include "planner/cell/exp_log.h"
-#include "planner/motion/way_pursuit.h"
 
 namespace jaywalk::motion {
 namespace {
 
 constexpr std::uint32_t kProposalPurpose = 3;  ///< of the draws
-
-constexpr float kFollowShares[] = {1.0F, 0.833F, 0.667F, 0.5F, 0.333F, 0.167F, 0.0F};  ///< of full speed
-constexpr int kPauses = 4;  ///< waits of 0.8 to 3.2 s before it goes, and as many stops
-constexpr float kTurns[] = {0.0F, -0.15F, 0.15F, -0.3F, 0.3F, -0.5F, 0.5F, -0.75F, 0.75F, -1.0F, 1.0F};
-constexpr float kForward[] = {1.0F, 0.667F, 0.333F, 0.0F};  ///< of full speed
-constexpr float kBack[] = {0.5F, 1.0F};                     ///< of the speed backward
-constexpr int kBends[] = {7, 14};                           ///< steps of an arc before it follows
-constexpr int kTurnCount = std::ssize(kTurns);
-
-constexpr int kFollows = std::ssize(kFollowShares);
-constexpr int kArcs = (std::ssize(kForward) + std::ssize(kBack)) * kTurnCount;
-constexpr int kBentForward = std::ssize(kForward) * std::ssize(kBends) * kTurnCount;
-constexpr int kBentBack = std::ssize(kBack) * kTurnCount;
-constexpr int kStraights = 12;                             ///< directions, all round
-constexpr int kBrakesFor[] = {kSteps, 8, 16, 24, 32, 40};  ///< steps from now, before it follows
-constexpr int kBrakesAfter[] = {3, 6, 10};                 ///< steps of following before it brakes for good
-constexpr int kBrakes = std::ssize(kBrakesFor) + std::ssize(kBrakesAfter);
 
 constexpr int kSteerEvery = 3;     ///< steps
 constexpr int kSteerWayEvery = 2;  ///< the same, along a way of poses
@@ -79,88 +60,139 @@ const Compass kCompass = [] {
   return c;
 }();
 
+constexpr float kPursuitLookM = 0.35F;  // pure pursuit: of the way ahead
+constexpr float kPassedM = 0.03F;       // ahead of the axle: a pose is passed
+constexpr float kTurnedRad = 0.06F;     // off: turned
+constexpr float kTurnsWithin = 0.9F;    // of where it arrives: it turns to the heading wanted there
+constexpr float kPursuitGain = 2.0F;    // rad/s a radian off, on the spot
+constexpr float kTurnShare = 0.8F;      // of the fastest turn
+constexpr float kPursuitSlowing = 0.35F, kLeastMps = 0.03F;  // m/s2, towards a change of gear
+constexpr float kCloseM = 0.2F;  // nearer than this the circle through a place says little: by heading
+constexpr float kKeepM = 0.055F, kRoomGain = 10.0F, kCreepMps = 0.12F;  // of the outline's edge, by its room
+constexpr std::int32_t kSmallTurn = 2;                                  // poses of a turn that an arc has, too
+
+/// Whether only the heading is left to be reached.
+bool turns_at_goal(const Situation& s, const RobotState& r) {
+  const float within = kTurnsWithin * s.arrives_within_m;
+  return s.wants_heading && rests_near(r, s.goal.x, s.goal.y, within, within, s.body.bounds);
+}
+
+/// Turns on the spot.
+Command turn_to(float heading, const RobotState& r, const MotionBounds& bounds) {
+  const float most = kTurnShare * bounds.turn;
+  return {0.0F, std::clamp(kPursuitGain * cell::wrapped(heading - r.heading), -most, most)};
+}
+
 }  // namespace
 
-int TrajectoryProposals::count() const {
-  return constant_ > 0.0F ? (1 + static_cast<int>(std::size(kBends))) * kTurnCount + 1
-                          : kFollows + 2 * kPauses + kArcs + kBentForward + kBentBack + kStraights + kBrakes;
+WayPursuit::WayPursuit(const Situation& situation, const RobotState& from) noexcept : s_(situation) {
+  s_.poses->way_from(from.x, from.y, from.heading, way_);
+  join_small_turns();
 }
 
-void TrajectoryProposals::make(int n, Trajectory& out) const noexcept {
-  out.perturbed = false;
-  if (constant_ > 0.0F) {
-    if (n == 0) return out.proposal = Proposal::kFollow, follow_from(s_.start, 0, constant_, out);
-    return n <= kTurnCount ? arc(n - 1, out) : arc_then_follow(n - 1 - kTurnCount, out);
+/// A step or two of turning between two drives of one gear is a bend of the drive.
+void WayPursuit::join_small_turns() noexcept {
+  for (std::int32_t k = 0; k < way_.count;) {
+    std::int32_t end = k;
+    while (end < way_.count && pose(end).gear == Gear::kTurn) ++end;
+    const bool is_last = end == way_.count, is_first = k <= 1;
+    if (end > k && end - k <= kSmallTurn && !is_last && (is_first || pose(k - 1).gear == pose(end).gear)) {
+      for (std::int32_t n = k; n < end; ++n) way_.poses[static_cast<std::size_t>(n)].gear = pose(end).gear;
+    }
+    k = std::max(end, k + 1);
   }
-  const float full = s_.body.bounds.speed;
-  RobotState robot = s_.start;
-  if (n < kFollows) {
-    out.proposal = Proposal::kFollow;
-    return follow_from(robot, 0, kFollowShares[n] * full, out);
-  }
-  n -= kFollows;
-  if (n < kPauses) {
-    out.proposal = Proposal::kWaitThenGo;
-    const int wait = 8 * (n + 1);
-    drive_out(robot, 0, wait, {}, out);
-    return follow_from(robot, wait, full, out);
-  }
-  n -= kPauses;
-  if (n < kPauses) {
-    out.proposal = Proposal::kGoThenStop;
-    follow_from(robot, 0, full, out);
-    return std::fill(out.commands.begin() + 6 + 8 * n, out.commands.end(), Command{});
-  }
-  n -= kPauses;
-  if (n < kArcs) return arc(n, out);
-  n -= kArcs;
-  if (n < kBentForward + kBentBack) return arc_then_follow(n, out);
-  n -= kBentForward + kBentBack;
-  n < kStraights ? go_straight(n, out) : brake(n - kStraights, out);
 }
 
-void TrajectoryProposals::brake(int n, Trajectory& out) const noexcept {
-  constexpr Command kStop{0.0F, 0.0F, true};
-  out.proposal = Proposal::kBrake;
-  RobotState robot = s_.start;
-  const int after_k = n - static_cast<int>(std::ssize(kBrakesFor));
-  if (after_k >= 0) {
-    follow_from(robot, 0, s_.body.bounds.speed, out);
-    const int after = kBrakesAfter[after_k];
-    return std::fill(out.commands.begin() + after, out.commands.end(), kStop);
+bool WayPursuit::has_more(const RobotState& r) noexcept {
+  if (turns_at_goal(s_, r)) return true;
+  while (way_.count > 1 && at_ < way_.count) {
+    const Gear gear = pose(at_).gear;
+    end_ = at_;
+    while (end_ + 1 < way_.count && pose(end_ + 1).gear == gear) ++end_;
+    if (gear == Gear::kTurn) {
+      if (std::fabs(cell::wrapped(pose(end_).heading - r.heading)) >= kTurnedRad) return true;
+      at_ = end_ + 1;
+      continue;
+    }
+    while (at_ <= end_ && is_passed(r, pose(at_))) ++at_;
+    if (at_ <= end_) return true;
   }
-  const int wait = kBrakesFor[n];
-  drive_out(robot, 0, wait, kStop, out);
-  if (wait < kSteps) follow_from(robot, wait, s_.body.bounds.speed, out);
+  return false;
 }
 
-void TrajectoryProposals::arc(int n, Trajectory& out) const noexcept {
-  const int row = n / kTurnCount, back = row - static_cast<int>(std::ssize(kForward));
+bool WayPursuit::is_passed(const RobotState& r, const WayPose& p) const noexcept {
+  const cell::Heading a = cell::heading_at(r.heading);
+  const float ahead = (p.x - r.x) * a.x + (p.y - r.y) * a.y;
+  return (p.gear == Gear::kBackward ? -ahead : ahead) < kPassedM;
+}
+
+/// Place at which the way leaves the circle of kPursuitLookM, or the last one of this gear.
+Place WayPursuit::look_ahead(const RobotState& r) const noexcept {
+  const auto distance_to = [&](const WayPose& p) {
+    return std::sqrt((p.x - r.x) * (p.x - r.x) + (p.y - r.y) * (p.y - r.y));
+  };
+  float before = 0.0F;
+  for (std::int32_t k = at_; k <= end_; before = distance_to(pose(k)), ++k) {
+    const WayPose& p = pose(k);
+    const float d = distance_to(p);
+    if (d < kPursuitLookM) continue;
+    if (k == at_) return {p.x, p.y};
+    const WayPose& from = pose(k - 1);
+    const float share = (kPursuitLookM - before) / std::max(d - before, 1e-3F);
+    return {from.x + share * (p.x - from.x), from.y + share * (p.y - from.y)};
+  }
+  return {pose(end_).x, pose(end_).y};
+}
+
+/// Curvature of the circle through a place; near it, of what turns to the heading there.
+float WayPursuit::bend_to(Place target, const RobotState& r) const noexcept {
+  const cell::Heading a = cell::heading_at(r.heading);
+  const float dx = target.x - r.x, dy = target.y - r.y, d2 = std::max(dx * dx + dy * dy, 1e-4F);
+  if (d2 >= kCloseM * kCloseM) return 2.0F * (dy * a.x - dx * a.y) / d2;
+  const float sign = pose(at_).gear == Gear::kForward ? 1.0F : -1.0F;
+  return sign * cell::wrapped(pose(end_).heading - r.heading) / std::max(std::sqrt(d2), 0.5F * kCloseM);
+}
+
+float WayPursuit::room_m() const noexcept {
+  float least = 1.0F;
+  for (std::int32_t k = std::max(0, at_ - 1); k <= std::min(at_ + 1, end_); ++k)
+    least = std::min(least, pose(k).room_m);
+  return least;
+}
+
+Command WayPursuit::command(const RobotState& r, float speed) noexcept {
+  if (turns_at_goal(s_, r)) return turn_to(s_.goal_heading, r, s_.body.bounds);
+  const Gear gear = pose(at_).gear;
+  if (gear == Gear::kTurn) return turn_to(pose(end_).heading, r, s_.body.bounds);
   const MotionBounds& b = s_.body.bounds;
-  const float v = constant_ > 0.0F ? constant_ : back < 0 ? kForward[row] * b.speed : -kBack[back] * b.back;
-  out.proposal = v < 0.0F ? Proposal::kArcBack : Proposal::kArc;
-  out.commands.fill(permitted({v, kTurns[n % kTurnCount] * b.turn}));
+  const float bend = bend_to(look_ahead(r), r), size = std::fabs(bend);
+  float v = gear == Gear::kForward ? speed : std::min(b.back, std::max(speed, kLeastMps));
+  if (end_ + 1 < way_.count) {
+    const float dx = pose(end_).x - r.x, dy = pose(end_).y - r.y;
+    v = std::min(v, std::sqrt(2.0F * kPursuitSlowing * std::sqrt(dx * dx + dy * dy)) + kLeastMps);
+  }
+  if (size > 1e-3F) v = std::min(v, b.turn / size);
+  const float rim_mps = std::max((room_m() - kKeepM) * kRoomGain, kCreepMps);
+  v = std::min(v, rim_mps / (1.0F + size * s_.body.rim_m));
+  const float signed_v = gear == Gear::kForward ? v : -v;
+  return {signed_v, std::clamp(signed_v * bend, -b.turn, b.turn)};
 }
 
-void TrajectoryProposals::arc_then_follow(int n, Trajectory& out) const noexcept {
-  const MotionBounds& b = s_.body.bounds;
-  const bool back = constant_ <= 0.0F && n >= kBentForward;
-  const int row = (back ? n - kBentForward : n) / kTurnCount;
-  const float v = constant_ > 0.0F ? constant_
-                  : back           ? -kBack[row] * b.back
-                                   : kForward[row / std::ssize(kBends)] * b.speed;
-  const int steps = back ? kBends[0] : kBends[row % std::ssize(kBends)];
-  out.proposal = back ? Proposal::kBackThenFollow : Proposal::kArcThenFollow;
+void TrajectoryProposals::hold_then_follow(const Command& command, int steps, float speed,
+                                           Trajectory& out) const noexcept {
   RobotState robot = s_.start;
-  drive_out(robot, 0, steps, permitted({v, kTurns[n % kTurnCount] * b.turn}), out);
-  follow_from(robot, steps, constant_ > 0.0F ? constant_ : b.speed, out);
+  drive_out(robot, 0, steps, command, out);
+  if (steps < kSteps) follow_from(robot, steps, speed, out);
 }
 
-/// Turns to one of twelve headings, then drives straight on at full speed: an escape that the guide does not show
+void TrajectoryProposals::follow_then_hold(int steps, const Command& command, Trajectory& out) const noexcept {
+  follow_from(s_.start, 0, s_.body.bounds.speed, out);
+  std::fill(out.commands.begin() + steps, out.commands.end(), command);
+}
+
+/// Turns to a heading, then drives straight on at full speed: an escape that the guide does not show
 /// (docs/explanation/decisions/motion-rollouts.md).
-void TrajectoryProposals::go_straight(int n, Trajectory& out) const noexcept {
-  const float heading = s_.start.heading + 2.0F * cell::kPiF * static_cast<float>(n) / static_cast<float>(kStraights);
-  out.proposal = Proposal::kGoStraight;
+void TrajectoryProposals::go_straight(float heading, Trajectory& out) const noexcept {
   RobotState robot = s_.start;
   for (int step = 0; step < kSteps; step += kSteerEvery) {
     const Command command = towards(cell::wrapped(heading - robot.heading), s_.body.bounds.speed);

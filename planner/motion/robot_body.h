@@ -1,5 +1,6 @@
 #pragma once
 // The robot's body and bounds as roll-outs take them, and zones of slower speed.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <span>
@@ -7,10 +8,10 @@
 
 #include "hal/types/map_zones.h"
 #include "hal/types/robot_model.h"
-#include "planner/cell/circle.h"
+#include "planner/cell/cell.h"
 #include "planner/cost_to_go/guide.h"
-#include "planner/motion/blind_rim.h"
 #include "planner/motion/robot_motion.h"
+#include "planner/motion/trajectory.h"
 
 namespace jaywalk::motion {
 
@@ -103,6 +104,61 @@ struct BodyDiscs {
   }
 };
 
+/// The parts of the body's outline beside which no laser ever looks. The supervisor lets such a part move outward at
+/// 0.3 m/s at most (firmware/safety/blind_gaps.cc); a roll-out that counts on more would be braked.
+///
+/// Memory in the constructor. Thread: any.
+class BlindRim {
+ public:
+  BlindRim() = default;
+  /// Beside points every 5 cm. Blanked sectors are left to the supervisor.
+  BlindRim(const Footprint& footprint, const OfEach<LaserModel>& lasers);
+
+  /// By how much (m/s) the fastest of them is too fast when the robot drives at `v` m/s and turns at `w` rad/s; 0 when
+  /// none is.
+  [[nodiscard]] float too_fast(float v, float w) const noexcept;
+  /// The same way on, as fast as is permitted: both parts of the command in proportion, as the supervisor does it.
+  [[nodiscard]] Command slowed(const Command& command) const noexcept;
+  /// The same speed, with the turn as near to `w` as is permitted: while a ramped speed still falls, the turn waits for
+  /// it, or the supervisor would brake both. `w` as it is where `v` alone is too fast.
+  [[nodiscard]] float turn_at(float v, float w) const noexcept;
+  /// Whether no laser looks at all that lies straight behind the robot.
+  [[nodiscard]] bool is_behind() const noexcept { return too_fast(-1.0F, 0.0F) > 0.0F; }
+  [[nodiscard]] std::size_t points() const noexcept { return points_.size(); }
+
+ private:
+  struct Point {
+    float x, y;          ///< in the robot's frame
+    float out_x, out_y;  ///< outward, both components at a corner
+  };
+  std::vector<Point> points_;
+  float reach_m_ = 0.0F;  ///< of the farthest from the axle
+};
+
+/// How far the robot may back at its speed though nothing looks there: what it has driven forward, less what it has
+/// backed since. At rest it shrinks by its greatest length a second: a pedestrian may step behind the robot. Beyond it
+/// the robot backs slowly (docs/explanation/decisions/motion-backward.md).
+class KnownBehind {
+ public:
+  KnownBehind() = default;
+  explicit KnownBehind(bool is_blind) : is_blind_(is_blind) {}
+
+  void drive(float v_mps, float for_s) noexcept {
+    const float gained_mps = std::fabs(v_mps) < kRestsMps ? -kMost_m : v_mps;
+    left_m_ = std::clamp(left_m_ + gained_mps * for_s, 0.0F, kMost_m);
+  }
+
+  [[nodiscard]] MotionBounds limited(MotionBounds bounds) const noexcept {
+    if (is_blind_ && left_m_ <= 0.0F) bounds.back = std::min(bounds.back, kBeyondMps);
+    return bounds;
+  }
+
+ private:
+  static constexpr float kMost_m = 0.5F, kBeyondMps = 0.12F;
+  bool is_blind_ = false;
+  float left_m_ = 0.0F;
+};
+
 /// The robot, as roll-outs need it.
 struct RobotBody {
   BodyDiscs to_walls, to_movers;
@@ -113,6 +169,8 @@ struct RobotBody {
   BlindRim blind;                   ///< where the supervisor lets it go slowly
   MotionBounds bounds;
 
+  /// Speed of the body's fastest point, m/s, about.
+  [[nodiscard]] float rim_mps(const RobotState& r) const { return std::fabs(r.v) + std::fabs(r.w) * rim_m; }
   /// From the body's edge to a place in its frame, m; 0 inside.
   [[nodiscard]] JAYWALK_ANYWHERE float gap(float ahead, float left) const {
     const float front = rim[0].x, rear = rim[5].x, side = rim[0].y, off = std::fabs(left) - side;
@@ -135,16 +193,7 @@ struct ZoneSpeed {
   double ahead_mps;  ///< so that half of the comfortable deceleration slows down before the next zone begins
 };
 
-/// Zones in which the robot drives slowly. Memory in the constructor. Thread: any.
-class SpeedZones {
- public:
-  SpeedZones(std::span<const MapZone> zones, const RobotModel& model);
-  [[nodiscard]] ZoneSpeed at(Vec2 robot_in_map) const noexcept;
-
- private:
-  std::vector<MapZone> zones_;  ///< speed zones alone
-  double reach_m_;              ///< of the body, and what its pose may be off by
-  double max_accel_mps2_;
-};
+/// Of the zones of slower speed among `zones`.
+[[nodiscard]] ZoneSpeed zone_speed(std::span<const MapZone> zones, const RobotModel& model, Vec2 robot_in_map) noexcept;
 
 }  // namespace jaywalk::motion

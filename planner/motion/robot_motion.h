@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "planner/cell/cell.h"
-#include "planner/cell/circle.h"
 
 namespace jaywalk::motion {
 

@@ -7,23 +7,19 @@
 
 namespace jaywalk::motion {
 
-/// What was decided, for pictures: as many fields as it takes to decide the same again.
-struct Decision {
-  std::uint32_t number = 0;  ///< from 1
-  Time at = kNever;
-  Time seen = kNever;  ///< stamp of the scan that it rests on
+/// A trajectory that was tried, for pictures.
+struct Alternative {
   Trajectory trajectory;
   Cost cost;
   std::array<RobotState, kSteps> driven{};
-  // What it was decided for, beside futures and guide.
-  RobotState start;
-  Place goal;
-  float turned = 0.0F;
-  KnownBehind known_behind;
-  StallState stall;
-  bool wants_heading = false;
-  float goal_heading = 0.0F, faces_rad = price::kFacesRad;  ///< within so much of it, it is reached
-  bool went_on = false;                                     ///< `last` was tried: what was left of the decision before
+};
+
+/// What was decided, and all that it takes to decide the same again beside futures and guide.
+struct Decision : Alternative, DecisionInput {
+  std::uint32_t number = 0;  ///< from 1
+  Time at = kNever;
+  Time seen = kNever;    ///< stamp of the scan that it rests on
+  bool went_on = false;  ///< `last` was tried: what was left of the decision before
   Trajectory last;
 };
 

@@ -1,13 +1,12 @@
 #pragma once
+#include <array>
 #include <cmath>
 
 #include "hal/types/trig.h"
 #include "planner/cost_to_go/pose_guide.h"
-#include "planner/motion/blind_rim.h"
 #include "planner/motion/cost/prices.h"
 #include "planner/motion/near_returns.h"
 #include "planner/motion/robot_body.h"
-#include "planner/motion/stick_proposals.h"
 #include "planner/motion/trajectory.h"
 #include "planner/prediction/futures.h"
 
@@ -16,25 +15,33 @@ namespace jaywalk::motion {
 /// So much before the nearest place to the goal the robot may come to rest, m: it slows down so much too early.
 inline constexpr float kRestsBefore_m = 0.06F;
 
-/// What the trajectories of one decision have in common; each term of the cost reads its part: more fields than a
-/// struct has elsewhere.
-struct Situation {
+/// The stick counts for 3 s: longer than it takes to steer clear, sooner than a person asks for something else. By the
+/// end of 5 s every trajectory is at rest, so that what is driven can always be ended without touching anything.
+inline constexpr int kFollowedSteps = 30, kStickSteps = 50;
+/// States of what the stick asks for, rolled out as if nothing were in the way.
+using StickRollout = std::array<RobotState, kFollowedSteps>;
+
+/// Input of a decision besides ground, futures and returns.
+struct DecisionInput {
+  RobotState start;
+  Place goal;
+  float turned = 0.0F;                                      ///< the side that it turned to last: turned_side()
+  StallState stall = {};                                    ///< for how long it has made no progress
+  bool wants_heading = false;                               ///< at the goal
+  float goal_heading = 0.0F, faces_rad = price::kFacesRad;  ///< that heading; within so much of it, it is reached
+  KnownBehind known_behind = {};                            ///< at the start
+};
+
+/// What the trajectories of one decision have in common; each term of the cost reads its part.
+struct Situation : DecisionInput {
   const RobotBody& body;
   const Guide& guide;
   const Futures& futures;
   const NearReturns& returns;
-  RobotState start;
-  Place goal;
-  float turned = 0.0F;                  ///< the side that it turned to last: turned_side()
-  StallState stall;                     ///< for how long it has made no progress
-  float arrives_within_m = 0.0F;        ///< of the goal: there
-  const StickRollout* stick = nullptr;  ///< driven by the stick: nearness to this counts, and no goal
-  const PoseGuide* poses = nullptr;     ///< null: the heading counts nowhere
-  float goal_heading = 0.0F;            ///< wanted at the goal, where `wants_heading`
-  bool wants_heading = false;
-  float faces_rad = price::kFacesRad;         ///< so near to it the heading is reached
+  float arrives_within_m = 0.0F;              ///< of the goal: there
+  const StickRollout* stick = nullptr;        ///< driven by the stick: nearness to this counts, and no goal
+  const PoseGuide* poses = nullptr;           ///< null: the heading counts nowhere
   float conflict_price_s = price::kConflict;  ///< of being in a mover's way
-  KnownBehind known_behind = {};              ///< at the start
 
   /// Whether there is a way from poses near the robot.
   [[nodiscard]] bool goes_by_poses() const noexcept { return poses != nullptr && poses->known; }
@@ -68,6 +75,12 @@ struct Situation {
     return off_heading(is_at_goal(at) ? at.heading : to_goal) / price::kTurnAtGoalRadps;
   }
 };
+
+/// How far off the stick's roll-out a trajectory is, in seconds at full speed: its distance from the place there at
+/// the same time, and the radians between the two, averaged over 3 s, times 2. To stand in place of full speed costs
+/// about as many seconds as the stick counts for. `states`: of each step, kFollowedSteps at least.
+[[nodiscard]] float seconds_off(const StickRollout& asked, const RobotState* states,
+                                const MotionBounds& bounds) noexcept;
 
 /// Rolls a trajectory out and adds up what it costs: the sum of the terms in planner/motion/cost/, at the prices of
 /// cost/prices.h. Gives up above `bound` (total() is then more than that, and no more is known). Writes the states

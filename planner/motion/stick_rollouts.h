@@ -1,14 +1,49 @@
 #pragma once
-#include <utility>
-
 #include "planner/motion/motion.h"
 #include "planner/motion/near_returns.h"
 #include "planner/motion/rollout_motion.h"
 
 namespace jaywalk::motion {
 
+/// The stick as a twist: its full way is the robot's fastest within `bounds`. Of a stick that is no number: none.
+[[nodiscard]] Command stick_command(const Stick& stick, const MotionBounds& bounds) noexcept;
+
+/// The stick's command, rolled out.
+[[nodiscard]] StickRollout roll_out_stick(const RobotState& start, const Command& command,
+                                          const MotionBounds& bounds) noexcept;
+
+/// One way of nearly obeying: a share of what is asked for, turned aside for some steps, then back, then as asked; then
+/// to rest. With no share of the turn it goes straight on: a hand that trembles asks for no circle.
+struct StickShape {
+  float share = 1.0F;                                ///< of the speed asked for, 0 to 1
+  float turn_share = 1.0F;                           ///< of the turn asked for, 0 to 1
+  float aside = 0.0F;                                ///< rad/s more than asked
+  float aside_steps = 0.0F;                          ///< for so many steps
+  float back = 0.0F;                                 ///< and for this share of them as much less
+  float steps = static_cast<float>(kFollowedSteps);  ///< until it slows down to rest
+};
+/// It never drives faster than asked, nor the other way.
+void make(const StickShape& shape, const Command& asked, const RobotState& start, const MotionBounds& bounds,
+          Trajectory& out) noexcept;
+/// Calls look(shape) with those that each decision tries first; what is asked for itself comes first.
+template <class Look>
+void each_shape(const MotionBounds& bounds, const Look& look) {
+  look(StickShape{});
+  for (const float steps : {0.0F, 3.0F, 6.0F, 10.0F, 15.0F}) look(StickShape{.steps = steps});
+  for (const float share : {0.667F, 0.333F}) look(StickShape{.share = share});
+  for (const float share : {1.0F, 0.667F, 0.333F})
+    for (const float aside : {0.12F, -0.12F, 0.25F, -0.25F, 0.45F, -0.45F, 0.7F, -0.7F, 1.0F, -1.0F})
+      for (const float steps : {4.0F, 8.0F, 14.0F, 22.0F})
+        for (const float back : {0.0F, 1.0F})
+          for (const float turn_share : {1.0F, 0.0F})
+            look(StickShape{share, turn_share, aside * bounds.turn, steps, back});
+}
+/// `shape` with noise; decision, round and number name it.
+[[nodiscard]] StickShape perturbed(const StickShape& shape, std::uint32_t decision, int round, int number,
+                                   const MotionBounds& bounds) noexcept;
+
 /// Roll-outs near to what a stick asks for, past what stands near the robot, where distance from that is a cost
-/// like others (stick_proposals.h). Any outline; no goal and no plan. A stick in the middle brings the robot to rest.
+/// like others. Any outline; no goal and no plan. A stick in the middle brings the robot to rest.
 ///
 /// StickUse::kByHand: the stick's twist itself, within the comfort limits; the supervisor alone keeps it safe.
 class StickRollouts final : public RolloutMotion {
@@ -25,49 +60,10 @@ class StickRollouts final : public RolloutMotion {
   [[nodiscard]] Next next(const World& world, const Intent& intent, const RobotState& now) noexcept override;
 
   [[nodiscard]] bool is_assisted() const noexcept { return setup_.steering == StickUse::kShared; }
-  void try_shape(const Situation& situation, const StickShape& shape) noexcept;
 
   LocalGround ground_;
   Time seen_ = kNever;  ///< stamp of the last scan, decided on or not
   Command asked_;       ///< to be decided on
-  Trajectory trial_, best_;
-  StickShape best_shape_;
-  float best_cost_ = 0.0F;
-};
-
-/// A motion to goals beside a stick: whichever the intent names drives, and the other keeps account.
-class SteeredMotion final : public Motion {
- public:
-  SteeredMotion(const MotionSetup& setup, std::unique_ptr<Motion> to_goal)
-      : to_goal_(std::move(to_goal)), by_stick_(setup) {}
-
-  void observe(const World& world, const Intent& intent) noexcept override {
-    steered_ = intent.kind == Intent::Kind::kStick;
-    to_goal_->observe(world, intent);
-    by_stick_.observe(world, intent);
-  }
-  [[nodiscard]] Twist2 command(const World& world, const Intent& intent) noexcept override {
-    return steered_ ? by_stick_.command(world, intent) : to_goal_->command(world, intent);
-  }
-  void decide(const World& world, const Intent& intent) noexcept override {
-    to_goal_->decide(world, intent);
-    by_stick_.decide(world, intent);
-  }
-  [[nodiscard]] MotionStatus status() const noexcept override {
-    MotionStatus status = to_goal_->status();
-    if (!steered_) return status;
-    status.rests_on = by_stick_.status().rests_on;
-    status.stick_asks = by_stick_.status().stick_asks;
-    return status;
-  }
-  [[nodiscard]] PlanRequest request(const World& world) const noexcept override { return to_goal_->request(world); }
-  [[nodiscard]] Duration plan_every() const noexcept override { return to_goal_->plan_every(); }
-  [[nodiscard]] const GoalRollouts* rollouts() const noexcept override { return to_goal_->rollouts(); }
-
- private:
-  std::unique_ptr<Motion> to_goal_;  ///< never null
-  StickRollouts by_stick_;
-  bool steered_ = false;
 };
 
 }  // namespace jaywalk::motion

@@ -59,6 +59,18 @@ void add_surroundings(const Situation& s, const RobotState* states, int steps, f
 
 }  // namespace
 
+float seconds_off(const StickRollout& asked, const RobotState* states, const MotionBounds& bounds) noexcept {
+  constexpr float kWeight = 2.0F;      // of a second off
+  constexpr float kTurnArm_m = 0.25F;  // a radian aside is as far off as this: the lever of a seat or a front
+  float sum_m = 0.0F;
+  for (int k = 0; k < kFollowedSteps; ++k) {
+    const RobotState& to = asked[static_cast<std::size_t>(k)];
+    const float dx = states[k].x - to.x, dy = states[k].y - to.y;
+    sum_m += std::sqrt(dx * dx + dy * dy) + kTurnArm_m * std::fabs(states[k].heading - to.heading);
+  }
+  return kWeight * sum_m / (bounds.speed * static_cast<float>(kFollowedSteps));
+}
+
 Cost trajectory_cost(const Situation& s, const Trajectory& trajectory, float bound, RobotState* driven) noexcept {
   Cost cost;
   RobotState states[kSteps];

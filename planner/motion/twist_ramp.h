@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <cmath>
 
 #include "hal/types/geometry.h"
@@ -15,9 +16,24 @@ class Ramp {
 
   /// The velocity `dt_s` later on the way to `target`. It arrives without overshoot: the acceleration never exceeds
   /// what can still be taken back to zero in the velocity left, sqrt(2 jerk |target - v|).
-  double toward(double target, double dt_s) noexcept;
+  double toward(double target, double dt_s) noexcept {
+    const double left = std::fabs(target - velocity_);
+    const double accel_step = max_jerk_ * dt_s;
+    // Coming down from acceleration a by one step a tick covers dt (a^2 / (2 step) + a / 2): the largest a for what is
+    // left.
+    const double landing = accel_step * (std::sqrt(0.25 + 2.0 * left / (accel_step * dt_s)) - 0.5);
+    const double size = std::min({max_accel_, landing, left / dt_s});
+    accel_ += std::clamp((target < velocity_ ? -size : size) - accel_, -accel_step, accel_step);
+    velocity_ += accel_ * dt_s;
+    if (std::fabs(target - velocity_) < 1e-12) velocity_ = target;  // what rounding leaves
+    return velocity_;
+  }
   /// Something else (the supervisor) set the velocity: go on from there.
-  void restart_at(double velocity) noexcept;
+  void restart_at(double velocity) noexcept {
+    if (velocity == velocity_) return;
+    velocity_ = velocity;
+    accel_ = 0.0;
+  }
   [[nodiscard]] double velocity() const noexcept { return velocity_; }
 
  private:
@@ -36,10 +52,18 @@ class Ramp {
 /// Forward speed with the comfort limits, turning with the turn acceleration limit.
 class TwistRamp {
  public:
-  explicit TwistRamp(const MotionLimits& limits);
-  [[nodiscard]] Twist2 toward(const Twist2& target, double dt_s) noexcept;
+  explicit TwistRamp(const MotionLimits& limits)
+      : forward_(limits.max_accel_mps2, limits.max_jerk_mps3), max_turn_accel_radps2_(limits.max_turn_accel_radps2) {}
+  [[nodiscard]] Twist2 toward(const Twist2& target, double dt_s) noexcept {
+    const double turn_step = max_turn_accel_radps2_ * dt_s;
+    w_radps_ += std::clamp(target.w_radps - w_radps_, -turn_step, turn_step);
+    return {forward_.toward(target.v_mps, dt_s), w_radps_};
+  }
   /// What was really permitted last tick; a no-op when it is what was asked for.
-  void follow(const Twist2& permitted) noexcept;
+  void follow(const Twist2& permitted) noexcept {
+    forward_.restart_at(permitted.v_mps);
+    w_radps_ = permitted.w_radps;
+  }
 
  private:
   Ramp forward_;
@@ -50,13 +74,14 @@ class TwistRamp {
 /// Wheel speeds for a twist: each wheel's rim moves at v -+ w b/2 (b: track width).
 /// When a wheel would be faster than the motors can turn, both slow by the same factor, so that the robot keeps its
 /// curve and only takes longer. A twist that is not finite gives zero.
-class DiffDrive {
- public:
-  explicit DiffDrive(const DriveModel& drive) : drive_(drive) {}
-  [[nodiscard]] WheelCommand wheel_speeds(const Twist2& twist, Time stamp) const noexcept;
-
- private:
-  DriveModel drive_;
-};
+[[nodiscard]] inline WheelCommand wheel_speeds(const DriveModel& drive, const Twist2& twist, Time stamp) noexcept {
+  if (!std::isfinite(twist.v_mps) || !std::isfinite(twist.w_radps)) return {.stamp = stamp};
+  const double rim_difference = twist.w_radps * drive.track_width_m / 2.0;
+  const double left_radps = (twist.v_mps - rim_difference) / drive.wheel_radius_m;
+  const double right_radps = (twist.v_mps + rim_difference) / drive.wheel_radius_m;
+  const double fastest = std::max(std::fabs(left_radps), std::fabs(right_radps));
+  const double slow_by = fastest > drive.max_wheel_speed_radps ? drive.max_wheel_speed_radps / fastest : 1.0;
+  return {.stamp = stamp, .left_radps = left_radps * slow_by, .right_radps = right_radps * slow_by};
+}
 
 }  // namespace jaywalk

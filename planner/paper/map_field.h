@@ -33,18 +33,19 @@ struct CellMap {
 /// Largest side of a map that a MapField takes.
 inline constexpr std::int32_t kMostMapCells = 2048;
 
-/// How a map's potential came out.
-struct MapQuality {
-  bool certified = false;  ///< every cell that the goal can be reached from has a strictly lower 4-neighbour
-  float reach = 0.0F;      ///< share of those cells from which descent arrives
-  std::int32_t joined = 0;
+/// Quality of a potential.
+struct FieldQuality {
+  bool done = false;        ///< the executor has not failed
+  bool certified = false;   ///< every cell that the goal can be reached from has a strictly lower 4-neighbour
+  std::int32_t pits = 0;    ///< joined cells without a lower neighbour
+  std::int32_t joined = 0;  ///< cells that the goal can be reached from; 0: not from the robot's place
   std::int32_t cycles = 0;
 };
 
 /// The exact field is worth about four seconds (MapField::best_neighbours); that of 256 x 256 cells takes less.
 inline constexpr double kMostMultiplications = 4e9;
 
-/// Solves the potential of a map by the planner's own stages, on one executor (map_field_on.h). Takes its memory when
+/// Solves the potential of a map by the planner's own stages, on one executor (MapFieldOn). Takes its memory when
 /// made, for the square of a power of two that holds the map. Not for the loop.
 class MapField {
  public:
@@ -58,11 +59,11 @@ class MapField {
   /// The free cell nearest (i, j) within `radius` cells; false without one.
   [[nodiscard]] virtual bool nearest_free(CellIndex& at, std::int32_t radius) const noexcept = 0;
   /// From the walls to the certified potential of a free goal cell, nothing known before.
-  virtual MapQuality solve_cold(CellIndex goal) noexcept = 0;
+  virtual FieldQuality solve_cold(CellIndex goal) noexcept = 0;
   /// The same from the last solution, as a tick does in which nothing has changed.
-  virtual MapQuality solve_warm(CellIndex goal) noexcept = 0;
+  virtual FieldQuality solve_warm(CellIndex goal) noexcept = 0;
   /// The start field in its place: shortest ways, no potential solved.
-  virtual MapQuality solve_start(CellIndex goal) noexcept = 0;
+  virtual FieldQuality solve_start(CellIndex goal) noexcept = 0;
   /// Share of joined cells from which descent arrives, counted cell by cell.
   [[nodiscard]] virtual float reach(CellIndex goal) noexcept = 0;
   /// Share of joined cells that pick the exact field's best neighbour (exact_psi); none when that would take more

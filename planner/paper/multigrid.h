@@ -4,22 +4,13 @@
 
 namespace jaywalk::paper {
 
-/// Arrays of blocks beside a level's equations.
-struct BlockArrays {
-  float *low_weight, *high_weight;  ///< of the block's (0, 0) and (1, 1) cells in its right-hand side
-  /// Cells that a block speaks for: bits 0 to 3 for (0, 0), (1, 0), (0, 1), (1, 1); kOpenEast, kOpenNorth. May be
-  /// read beyond the border (take_rows).
-  std::int32_t* ties;
-};
-
-/// Bits of `ties`: coupled to the next block east, north.
+/// Bits of a level's `ties`: coupled to the next block east, north.
 inline constexpr std::int32_t kOpenEast = 16, kOpenNorth = 32;
 
 /// Builds the equations of blocks from their four cells each.
 template <bool kFinest>
 struct CoarsenBlock {
   Level fine, coarse;
-  BlockArrays blocks;
 
   JAYWALK_CELL void operator()(std::int32_t i, std::int32_t j) const {
     const std::int32_t block = coarse.grid.at(i, j);
@@ -51,9 +42,9 @@ struct CoarsenBlock {
     coarse.couplings.set(block, a);
     coarse.psi[block] = base;
     coarse.diagonal[block] = total;
-    blocks.low_weight[block] = w00 * scale;
-    blocks.high_weight[block] = w11 * scale;
-    blocks.ties[block] = (m00 ? 1 : 0) | (m10 ? 2 : 0) | (m01 ? 4 : 0) | (m11 ? 8 : 0) |
+    coarse.low_weight[block] = w00 * scale;
+    coarse.high_weight[block] = w11 * scale;
+    coarse.ties[block] = (m00 ? 1 : 0) | (m10 ? 2 : 0) | (m01 ? 4 : 0) | (m11 ? 8 : 0) |
                          (a.east > 0.0F ? kOpenEast : 0) | (a.north > 0.0F ? kOpenNorth : 0);
   }
 
@@ -98,11 +89,10 @@ struct SpokenOfRow {
 /// last. The blocks' corrections start from 0.
 struct RestrictToBlock {
   Level fine, coarse;
-  BlockArrays blocks;
 
   JAYWALK_CELL void operator()(std::int32_t i, std::int32_t j) const {
     const std::int32_t block = coarse.grid.at(i, j), low = fine.grid.at(2 * i, 2 * j), high = low + fine.grid.side + 1;
-    coarse.source[block] = blocks.low_weight[block] * lacking(low) + blocks.high_weight[block] * lacking(high);
+    coarse.source[block] = coarse.low_weight[block] * lacking(low) + coarse.high_weight[block] * lacking(high);
     coarse.x[block] = 0.0F;
   }
 
@@ -115,7 +105,6 @@ struct RestrictToBlock {
 template <bool kFinest>
 struct ProlongToCell {
   Level fine, coarse;
-  const std::int32_t* ties;
 
   JAYWALK_CELL void operator()(std::int32_t i, std::int32_t j) const {
     const std::int32_t c = fine.grid.at(i, j), side = coarse.grid.side, block = coarse.grid.at(i / 2, j / 2);
@@ -128,7 +117,7 @@ struct ProlongToCell {
     const float value = 9.0F * correction[block] + 3.0F * (to_beside * correction[beside]) +
                         (3.0F * (to_above * correction[block + step]) + to_corner * correction[beside + step]);
     const float weight = 9.0F + 3.0F * (to_beside + to_above) + to_corner;
-    const float mean = (ties[block] & (1 << (east + 2 * north))) != 0 ? value / weight : 0.0F;
+    const float mean = (coarse.ties[block] & (1 << (east + 2 * north))) != 0 ? value / weight : 0.0F;
     if constexpr (kFinest) {
       fine.x[c] = corrected(fine.x[c], mean);
     } else {
@@ -138,7 +127,7 @@ struct ProlongToCell {
 
  private:
   JAYWALK_CELL float is_open(std::int32_t block, std::int32_t tie) const {
-    return (ties[block] & tie) != 0 ? 1.0F : 0.0F;
+    return (coarse.ties[block] & tie) != 0 ? 1.0F : 0.0F;
   }
 };
 
@@ -210,8 +199,8 @@ class Multigrid {
     level.x = take_rows<float>(executor_, side);
     level.psi = psi;
     if (depth == 0) return;
-    take(level.psi), take(level.diagonal), take(blocks_[depth].low_weight), take(blocks_[depth].high_weight);
-    blocks_[depth].ties = take_rows<std::int32_t>(executor_, side);
+    take(level.psi), take(level.diagonal), take(level.low_weight), take(level.high_weight);
+    level.ties = take_rows<std::int32_t>(executor_, side);
   }
 
   template <class Stage>
@@ -253,11 +242,10 @@ class Multigrid {
     while (depth > top) {
       --depth;
       const Level &fine = levels_[depth], &coarse = levels_[depth + 1];
-      const std::int32_t* ties = blocks_[depth + 1].ties;
       if (depth == 0) {
-        for_each_cell(fine, ProlongToCell<true>{fine, coarse, ties});
+        for_each_cell(fine, ProlongToCell<true>{fine, coarse});
       } else {
-        for_each_cell(fine, ProlongToCell<false>{fine, coarse, ties});
+        for_each_cell(fine, ProlongToCell<false>{fine, coarse});
       }
       relax(depth, 2 + further_sweeps(depth));
     }
@@ -272,18 +260,17 @@ class Multigrid {
   /// Builds the blocks (unless they are there), relaxes twice, and hands on what is lacking.
   void go_down(std::int32_t depth, bool build) noexcept {
     const Level &fine = levels_[depth], &coarse = levels_[depth + 1];
-    const BlockArrays& blocks = blocks_[depth + 1];
-    if (build && depth == 0) for_each_cell(coarse, CoarsenBlock<true>{fine, coarse, blocks});
-    if (build && depth > 0) for_each_cell(coarse, CoarsenBlock<false>{fine, coarse, blocks});
+    if (build && depth == 0) for_each_cell(coarse, CoarsenBlock<true>{fine, coarse});
+    if (build && depth > 0) for_each_cell(coarse, CoarsenBlock<false>{fine, coarse});
     relax(depth, 2);
-    for_each_cell(coarse, RestrictToBlock{fine, coarse, blocks});
+    for_each_cell(coarse, RestrictToBlock{fine, coarse});
   }
 
   /// True where this level's blocks speak for enough of those below. Large ones in narrow passages lie across walls;
   /// the level and all above it are then left out.
   bool speaks_for_most(std::int32_t depth) noexcept {
     const std::int32_t side = levels_[depth].grid.side;
-    executor_.for_each_cell(side, 1, SpokenOfRow{side, levels_[depth - 1].diagonal, blocks_[depth].ties, counted_});
+    executor_.for_each_cell(side, 1, SpokenOfRow{side, levels_[depth - 1].diagonal, levels_[depth].ties, counted_});
     const Counted spoken = executor_.total(side, counted_);
     return static_cast<float>(spoken.cells) >= kSpokenShare * static_cast<float>(spoken.joined);
   }
@@ -297,7 +284,6 @@ class Multigrid {
 
   Executor& executor_;
   Level levels_[kMostLevels]{};  ///< finest first
-  BlockArrays blocks_[kMostLevels]{};
   Counted* counted_ = nullptr;
   std::int32_t used_ = 0;  ///< levels that are of use on this map
 };

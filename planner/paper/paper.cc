@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
+#include <initializer_list>
 
+#include "planner/cost_to_go/nearest_surfaces.h"
 #include "planner/motion/twist_ramp.h"
 #include "planner/paper/executor.h"
-#include "planner/paper/map_field_on.h"
 #include "planner/paper/paper_planner.h"
 
 namespace jaywalk::paper {
@@ -25,16 +25,9 @@ cell::AxisState axis(double position, double velocity, const AxisCovariance& p, 
           scaled(p.vv, square)};
 }
 
-/// Whether single precision can hold a track: no NaN, nothing beyond a million.
-bool is_plausible(const Track& t) {
-  const double values[] = {t.position_in_map.x, t.position_in_map.y, t.velocity_in_map.x, t.velocity_in_map.y,
-                           t.covariance.pp,     t.covariance.pv,     t.covariance.vv,     t.radius_m};
-  return std::all_of(std::begin(values), std::end(values), [](double v) { return std::fabs(v) <= kFarthest_m; });
-}
-
-bool is_plausible(const StandingPedestrian& s) {
-  return std::fabs(s.position_in_map.x) <= kFarthest_m && std::fabs(s.position_in_map.y) <= kFarthest_m &&
-         std::fabs(s.radius_m) <= kFarthest_m;
+/// Whether single precision can hold them: no NaN, nothing beyond a million.
+bool are_plausible(std::initializer_list<double> values) {
+  return std::all_of(values.begin(), values.end(), [](double v) { return std::fabs(v) <= kFarthest_m; });
 }
 
 class PathMotion final : public motion::Motion {
@@ -84,15 +77,6 @@ class PathMotion final : public motion::Motion {
   motion::MotionStatus status_;
 };
 
-/// Calls visit(cell, its middle in the map) for the window's cells from `low` to `high`.
-template <class Visit>
-void for_each_cell(const Window& window, CellIndex low, CellIndex high, const Visit& visit) {
-  for (std::int32_t j = std::max(low.j, 0); j <= std::min(high.j, window.side - 1); ++j) {
-    for (std::int32_t i = std::max(low.i, 0); i <= std::min(high.i, window.side - 1); ++i)
-      visit(window.grid().at(i, j), window.in_map({i + 0.5, j + 0.5}));
-  }
-}
-
 }  // namespace
 
 Vec2 look_ahead(const Path& path, Vec2 robot, double ahead_m) noexcept {
@@ -106,13 +90,11 @@ Vec2 look_ahead(const Path& path, Vec2 robot, double ahead_m) noexcept {
 }
 
 void check(const PaperConfig& config) {
+  const double inflation_m = config.inflation_m, margin_m = config.mover_margin_m, cap_s = config.horizon_cap_s;
   field::check(config);
-  if (!(config.inflation_m >= 0.0 && config.inflation_m <= 5.0))
-    field::refuse("inflation_m", config.inflation_m, "choose 0 to 5 m");
-  if (!(config.mover_margin_m >= 0.0 && config.mover_margin_m <= 5.0))
-    field::refuse("mover_margin_m", config.mover_margin_m, "choose 0 to 5 m");
-  if (!(config.horizon_cap_s > 0.0 && config.horizon_cap_s <= 60.0))
-    field::refuse("horizon_cap_s", config.horizon_cap_s, "choose up to 60 s");
+  field::refuse_unless(inflation_m >= 0.0 && inflation_m <= 5.0, "inflation_m", inflation_m, "choose 0 to 5 m");
+  field::refuse_unless(margin_m >= 0.0 && margin_m <= 5.0, "mover_margin_m", margin_m, "choose 0 to 5 m");
+  field::refuse_unless(cap_s > 0.0 && cap_s <= 60.0, "horizon_cap_s", cap_s, "choose up to 60 s");
 }
 
 Warping warping_for(const PaperConfig& config, const Window& window, const PlanRequest& request) noexcept {
@@ -133,12 +115,12 @@ std::int32_t fetch_movers(const Window& window, std::span<const Track> tracks, M
                           std::array<std::uint32_t, kMaxTracks>& ids) noexcept {
   std::size_t count = 0;
   for (const Track& track : tracks) {
-    if (!is_plausible(track)) continue;
+    const Vec2 at = track.position_in_map, v = track.velocity_in_map, p = window.in_cells(at);
+    const AxisCovariance& c = track.covariance;
+    if (!are_plausible({at.x, at.y, v.x, v.y, c.pp, c.pv, c.vv, track.radius_m})) continue;
     if (count == kMaxTracks) break;
-    const Vec2 p = window.in_cells(track.position_in_map);
-    const Vec2 v = track.velocity_in_map;
-    movers[count] = {.x = axis(p.x, v.x, track.covariance, window.cell_m),
-                     .y = axis(p.y, v.y, track.covariance, window.cell_m),
+    movers[count] = {.x = axis(p.x, v.x, c, window.cell_m),
+                     .y = axis(p.y, v.y, c, window.cell_m),
                      .radius = static_cast<float>(track.radius_m / window.cell_m),
                      .speed = static_cast<float>(norm(v) / window.cell_m)};
     ids[count++] = track.id;
@@ -175,19 +157,21 @@ void fetch_keep_out(const Window& window, const KeepOut& keep_out, Vec2 robot, s
   const double node_m = static_cast<double>(keep_out.node_m);
   const CellIndex low = window.cell_at(first),
                   high = window.cell_at(first + Vec2{keep_out.width * node_m, keep_out.height * node_m});
-  for_each_cell(window, low, high, [&](std::int32_t c, Vec2 middle) {
-    if (distance_at(middle) < 0.0 && distance(middle, robot) >= open_m) occupants[c] |= kWall;
-  });
+  for (std::int32_t j = std::max(low.j, 0); j <= std::min(high.j, window.side - 1); ++j) {
+    for (std::int32_t i = std::max(low.i, 0); i <= std::min(high.i, window.side - 1); ++i) {
+      const Vec2 middle = window.in_map({i + 0.5, j + 0.5});
+      if (distance_at(middle) < 0.0 && distance(middle, robot) >= open_m) occupants[window.grid().at(i, j)] |= kWall;
+    }
+  }
 }
 
 void fetch_standing(const Window& window, std::span<const StandingPedestrian> standing,
                     std::uint8_t* occupants) noexcept {
   for (const StandingPedestrian& stander : standing) {
-    const Vec2 middle = stander.position_in_map, half{stander.radius_m, stander.radius_m};
-    if (!is_plausible(stander)) continue;
-    for_each_cell(window, window.cell_at(middle - half), window.cell_at(middle + half), [&](std::int32_t c, Vec2 p) {
-      if (distance(p, middle) <= stander.radius_m) occupants[c] |= kMover;
-    });
+    const Vec2 at = stander.position_in_map;
+    if (!are_plausible({at.x, at.y, stander.radius_m})) continue;
+    field::for_each_in_disc(window, {0, 0, window.side - 1, window.side - 1}, at, stander.radius_m,
+                            [&](std::int32_t c) { occupants[c] |= kMover; });
   }
 }
 

@@ -1,12 +1,16 @@
 #pragma once
-// The paper's planner on any executor: chooses window, goal and start, runs the pass, and draws the path.
+// On any executor: the paper's planner, which chooses window, goal and start, runs the pass, and draws the path; and
+// the potential of a map alone.
+#include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <memory>
 #include <utility>
 #include <vector>
 
 #include "planner/cost_to_go/time_to_go_planner.h"
+#include "planner/paper/map_field.h"
 #include "planner/paper/paper.h"
 #include "planner/paper/pass.h"
 #include "planner/paper/path.h"
@@ -106,8 +110,7 @@ class PaperPlanner final : public AnsweringPlanner {
       (void)plan.predictions.push_back(
           {.track_id = mover_ids_[static_cast<std::size_t>(k)],
            .position_in_map = window().in_map({static_cast<double>(mark.x), static_cast<double>(mark.y)}),
-           .mark_radius_m = static_cast<double>(mark.radius) * config_.cell_m,
-           .horizon_s = static_cast<double>(mark.horizon_s)});
+           .mark_radius_m = static_cast<double>(mark.radius) * config_.cell_m});
     }
   }
 
@@ -210,6 +213,72 @@ class PaperPlanner final : public AnsweringPlanner {
   std::vector<Point> points_, raw_;
   std::array<std::uint32_t, kMaxTracks> mover_ids_{};
   std::array<Result, 2> results_;  ///< as AnsweringPlanner numbers them
+};
+
+/// A MapField on any executor, which it owns.
+template <class Executor>
+class MapFieldOn final : public MapField {
+ public:
+  MapFieldOn(CellMap map, std::unique_ptr<Executor> executor)
+      : map_(std::move(map)), executor_(std::move(executor)), pass_(*executor_, grid_.side) {
+    MapFieldOn::inflate(0.0F);
+  }
+
+  void inflate(float inflation) noexcept override {
+    inflation_ = inflation;
+    for (std::int32_t j = 0; j < map_.height; ++j) {
+      const auto row = map_.wall.begin() + static_cast<std::ptrdiff_t>(j) * map_.width;
+      for (std::int32_t i = 0; i < map_.width; ++i)
+        pass_.shown().occupants[grid_.at(i, j)] = row[i] != 0 ? std::uint8_t{kWall} : std::uint8_t{0};
+    }
+    (void)pass_.clear(grid_, map_.width, map_.height, inflation, kWall);
+  }
+
+  [[nodiscard]] bool nearest_free(CellIndex& at, std::int32_t radius) const noexcept override {
+    const float* clearance = pass_.shown().clearance;
+    const std::int32_t found =
+        nearest_cell(grid_, at.i, at.j, radius, [clearance](std::int32_t c) { return clearance[c] > 0.0F; });
+    if (found == kNoCell) return false;
+    at = {found % grid_.side, found / grid_.side};
+    return true;
+  }
+
+  FieldQuality solve_cold(CellIndex goal) noexcept override {
+    inflate(inflation_);
+    return solve(goal, From::kNothing);
+  }
+  FieldQuality solve_warm(CellIndex goal) noexcept override { return solve(goal, From::kLast); }
+  FieldQuality solve_start(CellIndex goal) noexcept override { return solve(goal, From::kStartOnly); }
+
+  [[nodiscard]] float reach(CellIndex goal) noexcept override {
+    std::vector<std::uint8_t> seen(static_cast<std::size_t>(grid_.cells()));
+    return share_arriving(grid_, pass_.shown().psi, pass_.shown().index, grid_.at(goal.i, goal.j), seen.data());
+  }
+
+  [[nodiscard]] std::optional<double> best_neighbours(CellIndex goal, double most) const override {
+    std::vector<std::uint8_t> free(static_cast<std::size_t>(grid_.cells()));
+    for (std::size_t c = 0; c < free.size(); ++c) free[c] = pass_.shown().clearance[c] > 0.0F ? 1 : 0;
+    const std::int32_t at = grid_.at(goal.i, goal.j);
+    const std::vector<double> exact = exact_psi(grid_, free.data(), at, most);
+    if (exact.empty()) return std::nullopt;
+    return share_of_best(grid_, pass_.shown().psi, exact, at);
+  }
+
+  [[nodiscard]] float psi(std::int32_t i, std::int32_t j) const noexcept override {
+    return pass_.shown().psi[grid_.at(i, j)];
+  }
+  [[nodiscard]] const char* backend() const noexcept override { return executor_->name(); }
+  [[nodiscard]] double device_ms() const noexcept override { return executor_->took_ms(); }
+
+ private:
+  FieldQuality solve(CellIndex goal, From from) noexcept { return pass_.solve(grid_, grid_.at(goal.i, goal.j), from); }
+
+  CellMap map_;
+  float inflation_ = 0.0F;
+  std::unique_ptr<Executor> executor_;
+  Grid grid_{
+      static_cast<std::int32_t>(std::bit_ceil(static_cast<std::uint32_t>(std::max({map_.width, map_.height, 64}))))};
+  Pass<Executor> pass_;
 };
 
 }  // namespace jaywalk::paper

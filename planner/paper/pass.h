@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "planner/mapping/window.h"
+#include "planner/paper/map_field.h"
 #include "planner/paper/mark_stages.h"
 #include "planner/paper/multigrid.h"
 #include "planner/paper/start_field.h"
@@ -17,15 +18,6 @@ enum class From : std::uint8_t {
   kLast,       ///< the last one, which must have been on the same cells with the same goal
   kNothing,    ///< the start field
   kStartOnly,  ///< the start field, and leave it at that
-};
-
-/// Quality of a potential.
-struct FieldQuality {
-  bool done = false;  ///< the executor has not failed
-  bool certified = false;
-  std::int32_t pits = 0;    ///< joined cells without a lower neighbour
-  std::int32_t joined = 0;  ///< cells that the goal can be reached from; 0: not from the robot's place
-  std::int32_t cycles = 0;
 };
 
 /// Cycles of a solution from the start field. Up to 256 cells a side 99.9 % of cells or more then pick the exact

@@ -6,7 +6,7 @@
 // infinity, and a falling phi a falling psi. A solution is kept as u = exp(-psi) v with v near 1, so that single
 // precision resolves what phi cannot: in a corridor w cells wide u falls by exp(-k) a cell
 // (docs/explanation/algorithm.md).
-#include "planner/cell/exp_log.h"
+#include "planner/cell/cell.h"
 #include "planner/paper/executor.h"
 
 namespace jaywalk::paper {
@@ -84,7 +84,12 @@ struct Level {
   Grid grid;
   CouplingArrays couplings;
   float *psi, *source, *x;  ///< x may be read beyond the border (take_rows)
-  float* diagonal;          ///< what a block's equation was divided by; cells' are not divided
+  // Of blocks alone:
+  float* diagonal;                  ///< what the equation was divided by; cells' are not divided
+  float *low_weight, *high_weight;  ///< of the block's (0, 0) and (1, 1) cells in its right-hand side
+  /// Cells that a block speaks for: bits 0 to 3 for (0, 0), (1, 0), (0, 1), (1, 1); kOpenEast, kOpenNorth. May be
+  /// read beyond the border (take_rows).
+  std::int32_t* ties;
 
   /// Value to which a cell would relax. Beyond the border the coupling is 0 and the value finite.
   [[nodiscard]] JAYWALK_CELL float relaxed(std::int32_t c) const {

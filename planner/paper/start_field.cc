@@ -16,24 +16,19 @@ std::vector<std::uint16_t> rate_table(std::int32_t max_side) {
   return table;
 }
 
-void StartGraph::clear(Grid grid) noexcept {
-  width_ = grid.side + 2;
-  std::fill_n(nodes_.begin(), width_ * width_, Node{field::kNoWay, 0});
-}
-
 /// A diagonal step costs no less than a straight one among the same rates.
 template <class May, class Visit>
 void StartGraph::for_each_step(std::int32_t n, const May& may, const Visit& visit) const noexcept {
-  const Node* node = &nodes_[static_cast<std::size_t>(n)];
+  const field::CellNode* const node = &nodes_[static_cast<std::size_t>(n)];
   const std::uint32_t here = node->rate;
   const auto along = [&](std::int32_t away) {
-    const Node there = node[away];
+    const field::CellNode there = node[away];
     const std::uint32_t step = straight_step(here, there.rate);
     if (there.rate != 0 && may(there.cost, step)) visit(n + away, step);
   };
   along(1), along(-1), along(width_), along(-width_);
   const auto across = [&](std::int32_t di, std::int32_t dj) {
-    const Node there = node[di + dj];
+    const field::CellNode there = node[di + dj];
     if (there.rate == 0 || !may(there.cost, straight_step(here, there.rate))) return;
     const std::uint32_t a = node[di].rate, b = node[dj].rate;
     if (a != 0 && b != 0) visit(n + di + dj, diagonal_step(here, there.rate, a, b));
@@ -47,7 +42,8 @@ StartField::StartField(std::int32_t max_side)
 
 bool StartField::settle(Grid grid, std::int32_t goal, const float* clearance, float* psi) noexcept {
   const std::int32_t last = grid.side - 1;
-  graph_.clear(grid);
+  graph_.take_grid(grid);
+  graph_.clear();
   for (std::int32_t j = 0; j <= last; ++j) {
     for (std::int32_t i = 0; i <= last; ++i) {
       const float* here = clearance + grid.at(i, j);

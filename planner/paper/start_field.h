@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "planner/cell/cell.h"
+#include "planner/cost_to_go/cell_graph.h"
 #include "planner/cost_to_go/shortest.h"
 #include "planner/paper/executor.h"
 
@@ -75,19 +76,9 @@ struct ClearanceOfRow {
   JAYWALK_CELL void operator()(std::int32_t j) const {
     const std::int32_t row = grid.at(0, j);
     const std::int32_t* g = rows_away + row;
-    std::int32_t *column = envelope + row, *begin = stretch + row, top = 0;
-    column[0] = begin[0] = 0;
-    for (std::int32_t u = 1; u < grid.side; ++u) {
-      while (top >= 0 && cell::squared_distance(begin[top], column[top], g[column[top]]) >
-                             cell::squared_distance(begin[top], u, g[u])) {
-        --top;
-      }
-      const std::int32_t from = top < 0 ? 0 : 1 + cell::last_nearer(column[top], g[column[top]], u, g[u]);
-      if (from >= grid.side) continue;
-      ++top;
-      column[top] = u;
-      begin[top] = from;
-    }
+    std::int32_t *column = envelope + row, *begin = stretch + row;
+    const auto away = [g](std::int32_t i) { return g[i]; };
+    std::int32_t top = cell::lower_envelope(0, grid.side - 1, away, column, begin) - 1;
     for (std::int32_t i = grid.side - 1; i >= 0; --i) {
       const std::int32_t squared = cell::squared_distance(i, column[top], g[column[top]]);
       if (i == begin[top]) --top;
@@ -123,31 +114,14 @@ inline constexpr std::uint32_t kFarthest = field::kNoWay - 16384;
 /// the rate at which a harmonic function decays along a passage w cells wide.
 [[nodiscard]] std::vector<std::uint16_t> rate_table(std::int32_t max_side);
 
-/// Cells and the steps to eight neighbours, as field::Shortest wants them; a ring of cells about them is not free, so
-/// that a step asks for no border. A diagonal step passes between two free cells.
-class StartGraph {
- public:
-  using Cost = std::uint32_t;
+/// Cells with the steps to eight neighbours in place of a CellGraph's; a rate is half of a step's cost. A diagonal step
+/// passes between two free cells.
+struct StartGraph : field::CellGraph {
   static constexpr std::uint32_t kSpan = 1024;
-  explicit StartGraph(std::int32_t max_side) : nodes_(static_cast<std::size_t>((max_side + 2) * (max_side + 2))) {}
-
-  /// None of the grid's cells is free.
-  void clear(Grid grid) noexcept;
-  /// Half of a step's cost; 0: not free.
-  void set_rate(std::int32_t n, std::uint32_t rate) noexcept { nodes_[static_cast<std::size_t>(n)].rate = rate; }
-  [[nodiscard]] std::int32_t at(std::int32_t i, std::int32_t j) const noexcept { return (j + 1) * width_ + i + 1; }
-  [[nodiscard]] std::uint32_t rate(std::int32_t n) const noexcept { return nodes_[static_cast<std::size_t>(n)].rate; }
-  [[nodiscard]] std::uint32_t& cost(std::int32_t n) noexcept { return nodes_[static_cast<std::size_t>(n)].cost; }
+  using CellGraph::CellGraph;
   [[nodiscard]] static std::uint32_t limit() noexcept { return kFarthest; }
   template <class May, class Visit>
   void for_each_step(std::int32_t n, const May& may, const Visit& visit) const noexcept;
-
- private:
-  struct Node {
-    std::uint32_t cost, rate;
-  };
-  std::vector<Node> nodes_;
-  std::int32_t width_ = 0;
 };
 
 /// The start field of one goal: an estimate of psi that descends to the goal from everywhere. A step costs what -ln u
@@ -162,7 +136,9 @@ class StartField {
   [[nodiscard]] std::uint32_t rate(std::int32_t i, std::int32_t j) const noexcept {
     return graph_.rate(graph_.at(i, j));
   }
-  [[nodiscard]] std::uint32_t cost(std::int32_t i, std::int32_t j) noexcept { return graph_.cost(graph_.at(i, j)); }
+  [[nodiscard]] std::uint32_t cost(std::int32_t i, std::int32_t j) const noexcept {
+    return graph_.cost(graph_.at(i, j));
+  }
 
  private:
   std::vector<std::uint16_t> table_;

@@ -1,11 +1,13 @@
 #pragma once
 // Pedestrian model and the futures that it predicts for tracks.
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
-#include "planner/cell/circle.h"
+#include "hal/types/fixed_vector.h"
+#include "planner/cell/cell.h"
 #include "planner/cell/draws.h"
 #include "planner/cost_to_go/guide.h"
 #include "planner/tracking/tuning.h"
@@ -158,6 +160,16 @@ inline constexpr std::size_t kMostMovers = 64;  ///< nearest first
 inline constexpr float kFutureStepS = 0.2F;
 inline constexpr int kFutureSteps = 31;  ///< 0 to 6 s
 
+/// A mover in each future.
+using Walkers = std::array<PedestrianSample, kFutures>;
+
+/// A mover out of sight, as it may be by now.
+struct OccludedMover {
+  std::uint32_t id = 0;
+  float age_s = 0.0F, usual_mps = 0.0F;  ///< out of sight for so long; its speed when it walks
+  Walkers walkers{};
+};
+
 /// Where every mover is in each of the futures, at one time.
 struct MoverAt {
   float x[kFutures], y[kFutures];
@@ -177,21 +189,21 @@ class Futures {
  public:
   Futures() : at_(static_cast<std::size_t>(kFutureSteps) * kMostMovers), walkers_(kMostMovers) {}
 
-  /// Those seen are drawn from what is believed of them; those out of sight are given as they may be, kFutures of each.
-  void draw(std::span<const MoverBelief> seen, std::span<const PedestrianSample> hidden, const TurningModel& turning,
+  /// Those seen are drawn from what is believed of them; those out of sight are given as they may be.
+  void draw(std::span<const MoverBelief> seen, std::span<const OccludedMover> hidden, const TurningModel& turning,
             const Guide& guide, std::uint32_t decision) noexcept;
 
-  [[nodiscard]] std::size_t movers() const { return movers_; }
-  [[nodiscard]] bool is_hidden(std::size_t mover) const { return mover >= seen_; }
-  /// While it stands it is a surface: the map's, if it was never seen to walk, or one of standing().
-  [[nodiscard]] bool is_surface(std::size_t mover) const { return surface_[mover]; }
+  /// Properties of a mover that are the same in all futures.
+  struct Mover {
+    float radius_m = 0.0F;
+    bool is_surface = false;   ///< while it stands: the map's, if it was never seen to walk, or one of standing()
+    bool is_newcomer = false;  ///< most likely no pedestrian: nothing is owed to it while it stands
+    bool has_stood = false;    ///< for long: should it set out, the robot sees that before it drives on
+    bool is_hidden = false;    ///< out of sight
+  };
+  [[nodiscard]] const FixedVector<Mover, kMostMovers>& movers() const { return movers_; }
   /// Pedestrians that have stood for long, where they stand: the same in all futures.
-  [[nodiscard]] std::span<const StandingDisc> standing() const { return {standing_, standing_count_}; }
-  /// Most likely no pedestrian: nothing is owed to it while it stands.
-  [[nodiscard]] bool is_newcomer(std::size_t mover) const { return newcomer_[mover]; }
-  /// It has stood for long: should it set out, the robot sees that before it drives on.
-  [[nodiscard]] bool has_stood(std::size_t mover) const { return stood_[mover]; }
-  [[nodiscard]] float radius(std::size_t mover) const { return radius_[mover]; }
+  [[nodiscard]] const FixedVector<StandingDisc, kMostMovers>& standing() const { return standing_; }
   [[nodiscard]] const MoverAt& at(int step, std::size_t mover) const {
     return at_[static_cast<std::size_t>(step) * kMostMovers + mover];
   }
@@ -201,16 +213,10 @@ class Futures {
   void find_blocked(int step) noexcept;
 
   std::vector<MoverAt> at_;
-  struct Row {
-    PedestrianSample in[kFutures];
-  };
-  std::vector<Row> walkers_;
-  float radius_[kMostMovers] = {};
-  bool surface_[kMostMovers] = {}, newcomer_[kMostMovers] = {}, stood_[kMostMovers] = {};
-  StandingDisc standing_[kMostMovers] = {};
-  std::size_t standing_count_ = 0;
+  std::vector<Walkers> walkers_;
+  FixedVector<Mover, kMostMovers> movers_;  ///< those seen come first
+  FixedVector<StandingDisc, kMostMovers> standing_;
   std::uint32_t blocked_[kMostMovers] = {};  ///< a bit a future
-  std::size_t movers_ = 0, seen_ = 0;        ///< those seen come first
 };
 
 }  // namespace jaywalk::motion

@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <span>
 
 #include "hal/types/fixed_vector.h"
@@ -6,12 +7,32 @@
 #include "planner/cost_to_go/planner.h"
 #include "planner/mapping/evidence_map.h"
 #include "planner/prediction/futures.h"
-#include "planner/prediction/occluded_movers.h"
 #include "planner/scan/line_of_sight.h"
 #include "planner/tracking/occlusion.h"
 #include "planner/tracking/track.h"
 
 namespace jaywalk::motion {
+/// Movers out of sight: where each may be by now, as kFutures walkers that walk on, less those whose place has been
+/// seen to be empty. Gone when hardly one is left, or after kRememberedS. Thread: the loop's.
+class OccludedMovers {
+ public:
+  static constexpr std::size_t kMost = 16;  ///< when full, newcomers are left out
+
+  /// Out of sight from now on.
+  void add(const MoverBelief& belief, const TurningModel& turning, const Guide& guide) noexcept;
+  /// Seen again under its own name.
+  void remove(std::uint32_t id) noexcept;
+  /// Whether one of them may have come out at a place; it is no longer occluded then, and `usual_mps` is its.
+  bool take(Vec2 place, double& usual_mps) noexcept;
+  /// `dt` seconds later, with what the scans pass through.
+  void update(float dt, const OfEach<SeenFrom>& scans, const TurningModel& turning, const Guide& guide) noexcept;
+
+  [[nodiscard]] std::span<const OccludedMover> movers() const { return {movers_.data(), movers_.size()}; }
+
+ private:
+  FixedVector<OccludedMover, kMost> movers_;
+};
+
 /// What a new scan has shown.
 struct Seen {
   Time now{};
@@ -31,7 +52,7 @@ class MoverHistory {
 
   /// Of every track that may walk within reach of the robot, nearest first.
   [[nodiscard]] std::span<const MoverBelief> beliefs() const { return {beliefs_.data(), beliefs_.size()}; }
-  [[nodiscard]] std::span<const PedestrianSample> hidden() const { return occluded_.walkers(); }
+  [[nodiscard]] std::span<const OccludedMover> hidden() const { return occluded_.movers(); }
   [[nodiscard]] const TurningModel& turning() const { return turning_; }
   /// Bodies that the map may hold and that are no walls.
   [[nodiscard]] std::span<const MoverDisc> masked() const { return {masked_.data(), masked_.size()}; }

@@ -34,16 +34,6 @@ constexpr double kNoise_m = 0.05, kNoiseShare = 0.012;  // of a range, as wide a
 
 }  // namespace
 
-LineOfSight::LineOfSight(const LaserScan& scan, const Pose2& map_from_robot, const Pose2& robot_from_laser,
-                         const Twist2& twist)
-    : scan_(scan),
-      map_from_robot_(map_from_robot),
-      robot_from_laser_(robot_from_laser),
-      twist_(twist),
-      beam_s_(beam_interval_s(scan, twist)),
-      sweep_(sweep_of(scan)),
-      laser_from_map_(inverse(map_from_robot * robot_from_laser)) {}
-
 LineOfSight::Bearing LineOfSight::bearing(Vec2 place, double after_s) const noexcept {
   const Vec2 in_laser = after_s == 0.0
                             ? laser_from_map_ * place

@@ -23,7 +23,14 @@ enum class Sight : std::uint8_t {
 class LineOfSight {
  public:
   /// `scan` outlives this. `map_from_robot` is the pose at its stamp.
-  LineOfSight(const LaserScan& scan, const Pose2& map_from_robot, const Pose2& robot_from_laser, const Twist2& twist);
+  LineOfSight(const LaserScan& scan, const Pose2& map_from_robot, const Pose2& robot_from_laser, const Twist2& twist)
+      : scan_(scan),
+        map_from_robot_(map_from_robot),
+        robot_from_laser_(robot_from_laser),
+        twist_(twist),
+        beam_s_(beam_interval_s(scan, twist)),
+        sweep_(sweep_of(scan)),
+        laser_from_map_(inverse(map_from_robot * robot_from_laser)) {}
 
   /// At the beams that come within `tolerance_m` of the place, as seen from the laser. One that ends within
   /// `tolerance_m` of its distance shows that something is there; of the others all must go on beyond it, or find

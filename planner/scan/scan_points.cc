@@ -58,24 +58,6 @@ Sweep sweep_of(const LaserScan& scan) noexcept {
   return {beams, step, all_round, sweep_s / std::max(1.0, beams - 1.0)};
 }
 
-double beam_interval_s(const LaserScan& scan, const Twist2& twist) noexcept {
-  if (scan.beam_count < 2 || twist == Twist2{}) return 0.0;
-  return to_seconds(scan.sweep) / static_cast<double>(scan.beam_count - 1);
-}
-
-Pose2 moved_by(const Twist2& twist, double after_s) noexcept {
-  const double turn = twist.w_radps * after_s;
-  const Vec2 travel = direction(0.5 * turn) * (twist.v_mps * after_s);
-  return {travel.x, travel.y, turn};
-}
-
-void ScanProjection::look_along(const LaserScan& scan, std::size_t beams) noexcept {
-  if (scan.first_angle_rad != first_angle_rad_ || scan.angle_step_rad != angle_step_rad_) known_ = 0;
-  first_angle_rad_ = scan.first_angle_rad;
-  angle_step_rad_ = scan.angle_step_rad;
-  for (; known_ < beams; ++known_) direction_[known_] = direction(scan.angle_rad(known_));
-}
-
 template <class RangeOf>
 void ScanProjection::project_beams(const LaserScan& scan, const Pose2& robot_from_laser, const Twist2& twist,
                                    RangeOf range_of, ScanPoints& out) noexcept {

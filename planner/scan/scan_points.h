@@ -65,11 +65,18 @@ inline constexpr double kSeesAll = 0.8;
 using ScanPoints = FixedVector<ScanPoint, kMaxBeams>;
 
 /// From a beam of the scan to the next, s; 0 for a scan taken all at once, or by a robot that stands.
-[[nodiscard]] double beam_interval_s(const LaserScan& scan, const Twist2& twist) noexcept;
+[[nodiscard]] inline double beam_interval_s(const LaserScan& scan, const Twist2& twist) noexcept {
+  if (scan.beam_count < 2 || twist == Twist2{}) return 0.0;
+  return to_seconds(scan.sweep) / static_cast<double>(scan.beam_count - 1);
+}
 
 /// Where a robot that keeps `twist` stands after `after_s` seconds, seen from where it stood. A sweep is short: the
 /// chord's direction is taken at half the turn, which is exact for constant speeds up to (w t)^2 / 24.
-[[nodiscard]] Pose2 moved_by(const Twist2& twist, double after_s) noexcept;
+[[nodiscard]] inline Pose2 moved_by(const Twist2& twist, double after_s) noexcept {
+  const double turn = twist.w_radps * after_s;
+  const Vec2 travel = direction(0.5 * turn) * (twist.v_mps * after_s);
+  return {travel.x, travel.y, turn};
+}
 
 /// Turns beams into points. Directions of beams are worked out when they change: sines and cosines would take a tenth
 /// of perception's time. Thread: the loop's.
@@ -87,7 +94,12 @@ class ScanProjection {
   template <class RangeOf>
   void project_beams(const LaserScan& scan, const Pose2& robot_from_laser, const Twist2& twist, RangeOf range_of,
                      ScanPoints& out) noexcept;
-  void look_along(const LaserScan& scan, std::size_t beams) noexcept;
+  void look_along(const LaserScan& scan, std::size_t beams) noexcept {
+    if (scan.first_angle_rad != first_angle_rad_ || scan.angle_step_rad != angle_step_rad_) known_ = 0;
+    first_angle_rad_ = scan.first_angle_rad;
+    angle_step_rad_ = scan.angle_step_rad;
+    for (; known_ < beams; ++known_) direction_[known_] = direction(scan.angle_rad(known_));
+  }
 
   float first_angle_rad_ = 0.0F, angle_step_rad_ = 0.0F;
   std::size_t known_ = 0;  ///< beams whose directions those angles gave

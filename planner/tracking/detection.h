@@ -2,6 +2,7 @@
 // Detections: pieces of a scan that stand where nothing stood before, or as people do. Clearing of isolated obstacles.
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "hal/types/fixed_vector.h"
@@ -25,6 +26,9 @@ inline constexpr double kLegsReachM = 0.2;
 /// One of a pedestrian's legs is at most so far from the other, m, in mid-step.
 inline constexpr double kStrideM = 0.6;
 
+/// Widest obstacle that may be a pedestrian's body, m across: shoulders, and a bag or a coat. No data on its choice.
+inline constexpr double kBodyAcrossM = 0.7;
+
 /// As wide as people and robots are, by half the width of what is seen whole: no post. What is too wide is no
 /// detection.
 [[nodiscard]] constexpr bool as_wide_as_a_body(double half_width_m) { return half_width_m > 0.18; }
@@ -40,6 +44,19 @@ enum class End : std::uint8_t {
 struct Ends {
   End low = End::kUnknown, high = End::kUnknown;  ///< at its first and last beam
   [[nodiscard]] bool seen() const { return low != End::kHidden && high != End::kHidden; }
+};
+
+/// A scan in pieces: its points, in the robot's frame and in the map, cut at its jumps.
+struct ScanPieces {
+  ScanPoints points;
+  PointsInMap in_map;  ///< of as many points
+  Segments segments;
+  Sweep sweep;
+
+  /// From the segment's first point to its last, m.
+  [[nodiscard]] double width_m(const Segment& segment) const {
+    return distance(in_map.position[segment.first], in_map.position[segment.last]);
+  }
 };
 
 /// Returns the ends of a segment. A sweep's own end hides.
@@ -96,8 +113,12 @@ using Detections = FixedVector<Detection, kMaxDetections>;
 /// only where it is as wide as a body and seen to end on both sides, or round: a pedestrian that stood there for long
 /// may go on. In unknown space only those that stand out on one side at least count: what goes on behind something
 /// nearer on both is a wall seen through a gap. What reaches the end of the sweep may go on outside it.
-void find_detections(const ScanPoints& points, const PointsInMap& in_map, const Segments& segments, const Sweep& sweep,
-                     Vec2 laser_in_map, Detections& out) noexcept;
+void find_detections(const ScanPieces& scan, Vec2 laser_in_map, Detections& out) noexcept;
+
+/// Tells whether a scan shows exactly two obstacles as thin as legs within half a stride of a place in the map. Returns
+/// nothing where the scan cannot tell: a leg is half hidden, the obstacle is as wide as a body, or beams lie too far
+/// apart.
+[[nodiscard]] std::optional<bool> two_legs_at(Vec2 place_in_map, const ScanPieces& scan) noexcept;
 
 /// Obstacles that stand alone in the map and are no wider than bodies: people, chairs, posts. They go, as walls do not,
 /// and one that went while nothing looked there stands in the map for good. Memory: a byte a cell, taken in the
@@ -106,12 +127,10 @@ class IsolatedObstacles {
  public:
   explicit IsolatedObstacles(const EvidenceMap& map);
 
-  /// Nothing is in view. `map`, here and below, is as large as the constructor's.
-  void begin() noexcept { std::fill(marks_.begin(), marks_.end(), kNew); }
-  /// Where one of a scan's `count` points lies something is.
+  /// Where one of a scan's `count` points lies something is. `map`, here and below, is as large as the constructor's.
   void note_in_view(const EvidenceMap& map, const PointsInMap& in_map, std::size_t count) noexcept;
-  /// Makes each of them unknown, as if it had never been seen, that is not in view. Looks at all cells: 1 to 2 ms for
-  /// 1024 a side.
+  /// Makes each of them unknown, as if it had never been seen, that is not in view; then nothing is in view any more.
+  /// Looks at all cells: 1 to 2 ms for 1024 a side.
   void forget_unseen(EvidenceMap& map) noexcept;
 
  private:

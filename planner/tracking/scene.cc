@@ -92,12 +92,12 @@ void SelfMask::learn(const LaserScan& scan, const Pose2& map_from_robot) noexcep
 void Scene::update(const LaserScan& scan, const Pose2& map_from_robot, const Twist2& twist, const EvidenceMap& still,
                    const Targets& targets) noexcept {
   self_mask_.learn(scan, map_from_robot);
-  projection_.project(scan, robot_from_laser_, twist, points);
+  projection_.project(scan, robot_from_laser, twist, points);
   sweep = sweep_of(scan);
   drop_own_points(scan);
   project_empty_beams(scan, twist);
   begin_at_a_jump(sweep, points);
-  map_from_laser = map_from_robot * robot_from_laser_;
+  map_from_laser = map_from_robot * robot_from_laser;
   const Transform2 to_map(map_from_robot);
   for (std::size_t k = 0; k < points.size(); ++k) {
     in_map.position[k] = to_map * points[k].in_robot;
@@ -105,7 +105,7 @@ void Scene::update(const LaserScan& scan, const Pose2& map_from_robot, const Twi
   }
   cut_at_jumps(points, sweep, segments);
   split_detections(targets, in_map, segments);
-  find_detections(points, in_map, segments, sweep, map_from_laser.position(), detections);
+  find_detections(*this, map_from_laser.position(), detections);
 }
 
 bool Scene::ends_on_robot(const LaserScan& scan, std::uint32_t beam) const noexcept {
@@ -130,7 +130,7 @@ void Scene::drop_own_points(const LaserScan& scan) noexcept {
 
 void Scene::project_empty_beams(const LaserScan& scan, const Twist2& twist) noexcept {
   const double range_m = std::min(kObservedM, kSeesAll * static_cast<double>(scan.range_max_m));
-  projection_.project_empty(scan, robot_from_laser_, twist, range_m, empty);
+  projection_.project_empty(scan, robot_from_laser, twist, range_m, empty);
   std::size_t kept = 0;
   for (const ScanPoint& end : empty) {
     if (!ends_on_robot(scan, end.beam)) empty[kept++] = end;

@@ -205,11 +205,7 @@ void predict_to(Estimate& estimate, bool given, Time stamp) noexcept {
 void note_seen(Estimate& estimate, Appearance& appearance, const Observation& seen) noexcept {
   estimate.off_std_m = seen.off_std_m;
   estimate.late_s = seen.late_s;
-  appearance.outline_in_map = seen.outline_in_map;
-  appearance.beams = seen.beams;
-  appearance.whole = seen.whole;
-  appearance.hidden_side = seen.hidden_side;
-  appearance.on_wall = seen.on_wall;
+  static_cast<Look&>(appearance) = seen;
 }
 
 void update_with(Target& target, const Observation& seen, const Pose2& map_from_laser, Time now) noexcept {
@@ -252,21 +248,17 @@ Observation observation_of(const Detections& detections, std::size_t lead, std::
                            bool on_legs) noexcept {
   const Detection& c = detections[lead];
   const double half_m = c.whole() ? c.radius_m : std::max(c.radius_m, arc_m);  // what is hidden is there all the same
-  Observation seen{.position_in_map = c.centre_in_map,
-                   .late_s = c.late_s,
-                   .late_std_s = c.late_std_s,
-                   .std_m = kArcStdM + kArcStdPerSpacing * c.spacing_m,
-                   .off_std_m = off_std_m(c, arc_m),
-                   .radius_m = std::clamp(half_m, kLegsReachM, 0.5 * kWidestBodyM),
-                   .in_free_space = c.in_free_space,
-                   .outline_in_map = c.outline_in_map,
-                   .beams = c.beams,
-                   .whole = c.whole(),
-                   .hidden_side = c.hidden_side(),
-                   .on_wall = c.on_wall,
-                   .width_m = distance(c.outline_in_map[0], c.outline_in_map.back()),
-                   .spacing_m = c.spacing_m,
-                   .was_off = {}};
+  Observation seen;
+  static_cast<Look&>(seen) = {c.outline_in_map, c.beams, c.whole(), c.hidden_side(), c.on_wall};
+  seen.position_in_map = c.centre_in_map;
+  seen.late_s = c.late_s;
+  seen.late_std_s = c.late_std_s;
+  seen.std_m = kArcStdM + kArcStdPerSpacing * c.spacing_m;
+  seen.off_std_m = off_std_m(c, arc_m);
+  seen.radius_m = std::clamp(half_m, kLegsReachM, 0.5 * kWidestBodyM);
+  seen.in_free_space = c.in_free_space;
+  seen.width_m = distance(c.outline_in_map[0], c.outline_in_map.back());
+  seen.spacing_m = c.spacing_m;
   if (seen.whole) {
     if (!c.leg() && !on_legs) seen.arc_m = c.radius_m;
   } else {

@@ -13,21 +13,25 @@
 
 namespace jaywalk {
 
+/// Appearance of a body's nearest detection.
+struct Look {
+  Outline outline_in_map;  ///< some of its points
+  BeamRun beams{};         ///< that ended on it
+  bool whole = false;      ///< nothing hid either side of it
+  int hidden_side = 0;     ///< Detection::hidden_side
+  bool on_wall = false;    ///< it stood where walls stand
+};
+
 /// What one scan says of a body: one detection, or a person's two legs. A field a measurement, so more of them than a
 /// struct has elsewhere.
-struct Observation {
+struct Observation : Look {
   Vec2 position_in_map;
   double late_s = 0.0, late_std_s = 0.0;  ///< Detection's: when it was there
   double std_m = 0.0;                     ///< an axis, as expected of its kind; Target::noise tells what comes of it
   double off_std_m = 0.0;                 ///< besides, an axis: Target's
   double radius_m = 0.0;
   bool in_free_space = false;
-  Outline outline_in_map;  ///< of the nearest detection
-  BeamRun beams{};         ///< of the same
-  bool whole = false;      ///< nothing hid either side of that
-  int hidden_side = 0;     ///< Detection::hidden_side of that
-  bool on_wall = false;    ///< that stands where walls stand
-  double width_m = 0.0;    ///< of what is seen of that
+  double width_m = 0.0;    ///< of what is seen of the nearest detection
   double spacing_m = 0.0;  ///< from beam to beam, across them
   double arc_m = 0.0;      ///< half its width across the beams where it is whole and no leg; else 0
   bool two_legs = false;   ///< apart, with nothing before either
@@ -63,15 +67,10 @@ struct Estimate {
 };
 
 /// What the last detection looked like, and what many of them say of its size.
-struct Appearance {
+struct Appearance : Look {
   double noise = 1.0;       ///< variance of its position, in units of what its kind of observation should have
   double arc_m = 0.0;       ///< running mean of half its width where it was seen whole; 0: never, or only its legs
   double legs_share = 0.0;  ///< running mean: how many of the detections were two legs apart
-  bool whole = false;       ///< nothing hid either side of it
-  int hidden_side = 0;      ///< Detection::hidden_side
-  bool on_wall = false;     ///< it stood where walls stand
-  Outline outline_in_map;   ///< some of its points
-  BeamRun beams;            ///< that ended on it
 
   /// Two legs that pass each other are as wide as a body now and then, and no arc of one.
   [[nodiscard]] bool on_legs() const { return legs_share > kOnLegs; }

@@ -10,29 +10,18 @@ namespace jaywalk {
 namespace {
 constexpr double kNewView = 0.05;  // least weight of a view that is evaluated, in independent views: saves time
 
-void rename(Detections& detections, std::uint32_t from, std::uint32_t to) {
-  for (Detection& c : detections) {
-    if (c.track_id == from) c.track_id = to;
-  }
-}
-
 }  // namespace
 
 Tracker::Tracker(const PerceptionConfig& c)
-    : mounts_{c.robot_from_laser},
-      own_body_(c.body),
-      known_(c.known_map),
-      still_(c.map_side_cells, c.cell_m, c.map_centre),
-      entry_(still_),
-      loose_(still_) {
-  mounts_.insert(mounts_.end(), c.robot_from_others.begin(), c.robot_from_others.end());
-  for (const Pose2& mount : mounts_) scenes_.emplace_back(mount);
-  if (known_) enter(*known_, still_, std::nullopt);
+    : config_(c), still_(c.map_side_cells, c.cell_m, c.map_centre), entry_(still_), loose_(still_) {
+  scenes_.emplace_back(c.robot_from_laser);
+  for (const Pose2& mount : c.robot_from_others) scenes_.emplace_back(mount);
+  if (c.known_map) enter(*c.known_map, still_, std::nullopt);
 }
 
 void Tracker::begin(const LaserScan& scan, const Pose2& map_from_robot) noexcept {
   scanner_ = scan.scanner;
-  map_from_first_ = map_from_robot * mounts_[0];
+  map_from_first_ = map_from_robot * config_.robot_from_laser;
   behind_s_ = order_.behind_s(scan);
   step_s_ = step_seconds(order_.before(), scan.stamp) / static_cast<double>(scenes_.size());
   unreported_s_ += step_s_;
@@ -86,7 +75,7 @@ void Tracker::look_at(Vec2 place, PedestrianBelief& belief) noexcept {
   const Vec2 view = scene.map_from_laser.position() - place;
   const double bearing_rad = atan2(view.y, view.x);
   if (belief.new_views(bearing_rad, now_) < kNewView) return;
-  const auto legs = two_legs_at(place, scene.points, scene.in_map, scene.segments, scene.sweep);
+  const auto legs = two_legs_at(place, scene);
   if (legs) belief.look(*legs, bearing_rad, now_);
 }
 
@@ -127,7 +116,9 @@ void Tracker::birth() noexcept {
     target.onset.free_share = seen.in_free_space ? 1.0 : 0.0;
     target.appearance.legs_share = seen.two_legs ? 1.0 : 0.0;
     anchor_here(target, map_from_first_, now_);
-    if (hidden_.reidentify(target, now_)) rename(detections, last_id_, target.estimate.track.id);
+    if (hidden_.reidentify(target, now_))
+      for (Detection& c : detections)
+        if (c.track_id == last_id_) c.track_id = target.estimate.track.id;
     admit(targets_, target, map_from_first_.position());
   }
 }
@@ -139,12 +130,12 @@ void Tracker::enter_still() noexcept {
   decide_entries(targets_, scene.detections, {scene.in_map.position.data(), count}, still_, now_, entries_);
   const CellIndex low = still_.low();
   still_.roll_to(map_from_first_.position());
-  if (known_ && !(still_.low() == low)) enter(*known_, still_, low);
+  if (config_.known_map && !(still_.low() == low)) enter(*config_.known_map, still_, low);
   entry_.enter(still_, laser_in_map, scene.in_map.position, entries_, count, step_s_);
-  const Pose2 map_from_robot = scene.map_from_laser * inverse(mounts_[scanner_]);
+  const Pose2 map_from_robot = scene.map_from_laser * inverse(scene.robot_from_laser);
   const Transform2 to_map(map_from_robot);
   for (const ScanPoint& end : scene.empty) MapEntry::mark_observed(still_, laser_in_map, to_map * end.in_robot);
-  free_under(still_, map_from_robot, own_body_);
+  free_under(still_, map_from_robot, config_.body);
 }
 
 /// What motion is told of a track's past. A pedestrian known to stand where a track is found is that track.
@@ -185,14 +176,14 @@ void Tracker::update(const LaserScan& scan, const Pose2& map_from_robot, const T
   scene().update(scan, map_from_robot, twist, still_, targets_);
   for (Detection& seen : scene().detections) seen.late_s += behind_s_;
   associate_and_correct();
-  const LineOfSight sight(scan, map_from_robot, mounts_[scanner_], twist);
+  const LineOfSight sight(scan, map_from_robot, scene().robot_from_laser, twist);
   judge(sight, twist);
   drop_unseen(sight);
   birth();
   enter_still();
   update_standing(targets_, still_, sight, now_, candidates_);
   publish();
-  past_.keep(scan, map_from_robot, mounts_[scanner_], twist);
+  past_.keep(scan, map_from_robot, scene().robot_from_laser, twist);
 }
 
 void Tracker::update_given(const OutsideFix& fix) noexcept {
@@ -202,7 +193,6 @@ void Tracker::update_given(const OutsideFix& fix) noexcept {
 }
 
 void Tracker::forget_unseen() noexcept {
-  loose_.begin();
   for (const Scene& scene : scenes_) loose_.note_in_view(still_, scene.in_map, scene.points.size());
   loose_.forget_unseen(still_);
 }

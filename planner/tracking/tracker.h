@@ -72,9 +72,7 @@ class Tracker {
   void publish() noexcept;
   [[nodiscard]] Scene& scene() noexcept { return scenes_[scanner_]; }
 
-  std::vector<Pose2> mounts_;  ///< robot_from_laser, of each scanner
-  Footprint own_body_;
-  std::shared_ptr<const KnownMap> known_;
+  PerceptionConfig config_;
   EvidenceMap still_;
   MapEntry entry_;
   IsolatedObstacles loose_;

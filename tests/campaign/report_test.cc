@@ -1,5 +1,8 @@
 #include "apps/campaign/report.h"
 
+#include <cmath>
+#include <limits>
+
 #include "apps/campaign/campaign_folder.h"
 #include "tests/recording/scratch.h"
 #include "tests/support/catch.h"
@@ -13,28 +16,16 @@ namespace {
 Plan two_runs() {
   Plan plan;
   for (const std::uint64_t seed : {1U, 2U}) {
-    PlannedRun run;
-    run.row = "movers.count 4";
-    run.values = {"4"};
-    run.scenario = "room";
-    run.seed = seed;
-    run.folder = "a/movers.count=4/room/" + std::to_string(seed);
-    run.command = "jaywalk sim room.toml --seed " + std::to_string(seed) + " --out out/" + run.folder;
-    run.cruise_mps = 0.5;
-    plan.runs.push_back(run);
+    const std::string number = std::to_string(seed), folder = "a/movers.count=4/room/" + number;
+    const std::string command = "jaywalk sim room.toml --seed " + number + " --out out/" + folder;
+    plan.runs.push_back({"movers.count 4", {"4"}, "room", seed, folder, {}, command, {}, 0.5});
   }
   return plan;
 }
 
 Campaign campaign() {
-  Campaign made;
-  made.title = "Made <up>";
-  Experiment experiment;
-  experiment.name = "a";
-  experiment.title = "A";
-  experiment.axes = {{"movers.count", {"4"}, ""}};
-  made.experiments.push_back(experiment);
-  return made;
+  const Experiment experiment{"a", "A", {}, {}, false, {{{"movers.count", {"4"}, ""}}}, ""};
+  return {"", "Made <up>", Keep::kFailures, {experiment}};
 }
 
 RunResult result(const std::string& outcome) {
@@ -60,22 +51,17 @@ void finish(const CampaignFolder& folder, const PlannedRun& run, const std::stri
 
 }  // namespace
 
-TEST_CASE("shards in folders of their own come to the report of one") {
+TEST_CASE("a report of two shards has the figures of both, the paper's beside them, and each failure's command") {
   const Scratch scratch;
   const Plan plan = two_runs();
   {
-    const CampaignFolder one(scratch.folder() / "one", text(), {1, 1});
     const CampaignFolder first(scratch.folder() / "s1", text(), {1, 2}),
         second(scratch.folder() / "s2", text(), {2, 2});
-    finish(one, plan.runs[0], "reached"), finish(one, plan.runs[1], "forced_mover");
     finish(first, plan.runs[0], "reached"), finish(second, plan.runs[1], "forced_mover");
   }
-  const ReportPage whole = page_of({scratch.folder() / "one"}),
-                   merged = page_of({scratch.folder() / "s2", scratch.folder() / "s1"});
-  CHECK(whole.missing == 0);
-  CHECK(html_of(whole) == html_of(merged));
-  CHECK(markdown_of(whole) == markdown_of(merged));
-  const std::string page = markdown_of(whole);
+  const ReportPage merged = page_of({scratch.folder() / "s2", scratch.folder() / "s1"});
+  CHECK(merged.missing == 0);
+  const std::string page = markdown_of(merged);
   CHECK(holds(page, "| A | 1 of 2 |"));
   CHECK(holds(page, "| the paper, on its own maps | 92.5 % |"));
   CHECK(holds(page, "| movers.count 4 | 1 of 2 | 50.0 % (9-91) | 1 | 0 | 0 | 0 | 0 | 2 | 1 | 0 | 0 | 1 |"));
@@ -86,7 +72,7 @@ TEST_CASE("shards in folders of their own come to the report of one") {
   CHECK(holds(page,
               "1. a/movers.count=4/room/2: forced_mover at 2.50 s: mover 1 | had to turn\n   `jaywalk sim room.toml "
               "--seed 2 --out "));
-  CHECK(holds(html_of(whole), "Made &lt;up&gt;"));
+  CHECK(holds(html_of(merged), "Made &lt;up&gt;"));
 }
 
 TEST_CASE("a report shows cards, a row a run that can be sorted, and files that any system can name") {
@@ -218,4 +204,39 @@ TEST_CASE("success stands by movers, and a dash where nothing was run") {
   CHECK(table.rows == std::vector<std::vector<std::string>>{{"ours", "-", "3 of 4", "1 of 4"},
                                                             {"theirs", "4 of 4", "-", "-"},
                                                             {"the paper, on its own maps", "-", "95.0 %", "-"}});
+}
+
+TEST_CASE("the interval of a share is Wilson's: all of few runs is not certainty, and no runs say nothing") {
+  // 33 of 40, z = 1.96, z^2 = 3.8416: centre (33 + 1.9208) / 43.8416 = 0.79652; half width 1.96 / 43.8416 *
+  // sqrt(33 * 7 / 40 + 0.9604) = 0.044706 * sqrt(6.7354) = 0.11602
+  CHECK(wilson(33, 40).low == Approx(0.68050).margin(1e-4));
+  CHECK(wilson(33, 40).high == Approx(0.91254).margin(1e-4));
+  CHECK(wilson(2, 2).low == Approx(2.0 / 5.8416).margin(1e-4));  // n / (n + z^2)
+  CHECK(wilson(2, 2).high == 1.0);
+  CHECK(wilson(0, 2).low == 0.0);
+  CHECK(wilson(0, 0).low == 0.0);
+  CHECK(wilson(0, 0).high == 1.0);
+}
+
+TEST_CASE("medians and quantiles leave out what nobody knows") {
+  const double unknown = std::numeric_limits<double>::quiet_NaN();
+  CHECK(median({3.0, unknown, 1.0, 2.0}) == 2.0);
+  CHECK(median({4.0, 1.0}) == 2.5);
+  CHECK(quantile({1.0, 2.0, 3.0, 4.0}, 0.5) == 2.0);
+  CHECK(quantile({1.0, 2.0, 3.0, 4.0}, 0.95) == 4.0);
+  CHECK(quantile({unknown, 7.0}, 1.0) == 7.0);
+  CHECK(mean({1.0, unknown, 3.0}) == 2.0);
+  CHECK(std::isnan(median({unknown})));
+  CHECK(std::isnan(mean({})));
+}
+
+TEST_CASE("numbers are written alike everywhere") {
+  CHECK(fixed(1.005, 1) == "1.0");
+  CHECK(fixed(-2.0, 0) == "-2");
+  CHECK(fixed(std::numeric_limits<double>::quiet_NaN(), 2) == "-");
+}
+
+TEST_CASE("digests are those of FNV-1a") {
+  CHECK(digest_of_text("") == "cbf29ce484222325");   // the offset
+  CHECK(digest_of_text("a") == "af63dc4c8601ec8c");  // published test vector
 }

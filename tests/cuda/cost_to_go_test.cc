@@ -157,7 +157,7 @@ TEST_CASE("emulated: more costs than a pile holds are settled by the processor")
   const std::vector<std::uint16_t> before = given.cost;
   CHECK_FALSE(rig.settler.settle(given.costs()));
   CHECK(given.cost == before);
-  CHECK_FALSE(rig.settler.has_failed());
+  CHECK(std::string(rig.settler.failure()).empty());
 }
 
 TEST_CASE("emulated: a settler whose device fails says so, has written nothing, and its field is the processor's") {

@@ -63,7 +63,6 @@ struct WrongBit final : field::CostSettler {
   enum class In { kNone, kPoses, kCells, kRoom, kShift, kRate };
   explicit WrongBit(In wrong) : in(wrong) {}
   bool is_ready() noexcept override { return settler.is_ready(); }
-  bool has_failed() const noexcept override { return settler.has_failed(); }
   const char* failure() const noexcept override { return settler.failure(); }
   double took_ms() const noexcept override { return settler.took_ms(); }
   const char* name() const noexcept override { return settler.name(); }

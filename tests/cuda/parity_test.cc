@@ -26,12 +26,6 @@ TestMap boxes(std::int32_t side, std::uint64_t seed) {
 
 paper::CellMap cells_of(const TestMap& map) { return {map.side, map.side, map.wall}; }
 
-paper::PaperConfig window(std::int32_t side) {
-  paper::PaperConfig config;
-  config.side_cells = config.max_side_cells = side;
-  return config;
-}
-
 /// Plans in a window of 6.4 m among six movers.
 void check_movers(const emulated::Properties& properties, int ticks) {
   device().power_on(properties);

@@ -25,9 +25,7 @@ Pose2 pose_at(const sim::RecordedLog& log, std::size_t scan) {
 void check_recorded(const std::filesystem::path& file, const emulated::Properties& properties, std::int32_t side,
                     std::size_t count, std::size_t stride) {
   device().power_on(properties);
-  paper::PaperConfig config;
-  config.side_cells = config.max_side_cells = side;
-  const auto cpu = paper::make_cpu_paper_planner(config), gpu = cuda_paper_planner(config);
+  const auto cpu = paper::make_cpu_paper_planner(window(side)), gpu = cuda_paper_planner(window(side));
   sim::LogReplay replay(sim::load_carmen(file));
   const sim::RecordedLog& log = replay.log();
   const Hal hal = replay.hal();

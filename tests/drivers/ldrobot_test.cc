@@ -1,5 +1,3 @@
-#include "drivers/laser/ldrobot.h"
-
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -7,6 +5,7 @@
 #include <vector>
 
 #include "drivers/laser/scanner_protocol.h"
+#include "drivers/laser/serial_scanners.h"
 #include "hal/types/trig.h"
 #include "tests/support/allocation_guard.h"
 #include "tests/support/catch.h"

@@ -1,10 +1,9 @@
-#include "drivers/laser/lms200.h"
-
 #include <chrono>
 #include <cmath>
 #include <memory>
 #include <vector>
 
+#include "drivers/laser/serial_scanners.h"
 #include "tests/support/catch.h"
 
 using namespace jaywalk;

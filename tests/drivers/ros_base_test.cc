@@ -255,7 +255,7 @@ TEST_CASE("a guard's brake is seen at the far end of the orders, which carry eve
   ros::RosBus bus({states, orders}, clock);
   const auto far_end = ros::SharedRing::find(orders, ros::kBaseRing);
   REQUIRE(far_end);
-  ros::Stopper(bus).brake();
+  bus.brake();
   CHECK(far_end->alarms() == 1);
   CHECK(bus.send(ros::to_frame(ros::kWheelOrder, {1.5F, 0})));
   ros::BaseMessage order;

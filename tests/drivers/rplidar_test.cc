@@ -1,10 +1,9 @@
-#include "drivers/laser/rplidar.h"
-
 #include <chrono>
 #include <cmath>
 #include <memory>
 #include <vector>
 
+#include "drivers/laser/serial_scanners.h"
 #include "tests/drivers/random_bytes.h"
 #include "tests/support/allocation_guard.h"
 #include "tests/support/catch.h"

@@ -1,9 +1,7 @@
 #include "tests/drivers/scanner_kinds.h"
 
-#include "drivers/laser/ldrobot.h"
-#include "drivers/laser/lms200.h"
-#include "drivers/laser/rplidar.h"
 #include "drivers/laser/scip.h"
+#include "drivers/laser/serial_scanners.h"
 #include "drivers/laser/sick.h"
 #include "tests/drivers/serial_line.h"
 

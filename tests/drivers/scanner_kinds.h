@@ -7,8 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "hil/emulators/network_scanners.h"
-#include "hil/emulators/serial_scanners.h"
+#include "hil/emulators/scanners.h"
 #include "tests/drivers/scanner_bench.h"
 
 namespace jaywalk::tests {

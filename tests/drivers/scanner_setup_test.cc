@@ -6,7 +6,7 @@
 #include "drivers/laser/scanner_connection.h"
 #include "drivers/wire/byte_link.h"
 #include "hal/types/errors.h"
-#include "hil/emulators/network_scanners.h"
+#include "hil/emulators/scanners.h"
 #include "tests/drivers/hand_clock.h"
 #include "tests/drivers/serial_line.h"
 #include "tests/support/catch.h"

@@ -6,7 +6,6 @@
 #include <array>
 #include <string>
 
-#include "drivers/can/can_interface.h"
 #include "tests/drivers/hand_clock.h"
 #include "tests/drivers/random_bytes.h"
 #include "tests/support/allocation_guard.h"

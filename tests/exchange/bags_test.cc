@@ -1,3 +1,4 @@
+#include "apps/formats/ros_input.h"
 #include "tests/exchange/made_bags.h"
 #include "tests/recording/scratch.h"
 #include "tests/support/catch.h"
@@ -23,6 +24,10 @@ void check_drive(const sim::RecordedLog& log) {
 
 std::string refusal(const std::string& path, const BagOptions& options = {}) {
   return refusal_of([&] { return load_bag(path, options); });
+}
+
+TransformMessage lies(const std::string& parent, const std::string& child, double x, double y, double yaw) {
+  return {parent, child, spatial_frame(x, y, 0.3, {0.0, 0.0, sin(yaw / 2), cos(yaw / 2)})};
 }
 
 TEST_CASE("one drive reads the same from every format and packing") {
@@ -100,6 +105,37 @@ TEST_CASE("scans of more beams than are taken are thinned out evenly") {
   CHECK(log.scans[0].beams == 1366);
   CHECK(log.range_m[2] == 6 * 0.001F);
   CHECK(log.scans[0].stamp == Time{Duration{5}});  // its header has none: when it was recorded
+}
+
+TEST_CASE("frames one in another are joined, up and down the tree") {
+  // A mast 1 m ahead of the body's middle, turned a quarter to the left; the laser 0.5 m ahead on it: (1, 0.5) and
+  // a quarter. The footprint lies 0.1 m ahead of the body: from it the laser is at (0.9, 0.5).
+  FrameTree frames;
+  frames.add(lies("/body", "/mast", 1.0, 0.0, kPi / 2));
+  frames.add(lies("mast", "laser", 0.5, 0.0, 0.0));
+  frames.add(lies("body", "footprint", 0.1, 0.0, 0.0));
+  const auto mount = level_mount(*frames.find("footprint", "/laser"));
+  REQUIRE(mount);
+  CHECK(mount->robot_from_laser.x == Approx(0.9));
+  CHECK(mount->robot_from_laser.y == Approx(0.5));
+  CHECK(mount->robot_from_laser.heading == Approx(kPi / 2));
+  CHECK_FALSE(mount->upside_down);
+  CHECK(frames.find("laser", "laser")->matrix().isIdentity());
+}
+
+TEST_CASE("frames that nothing joins, that move, or that go in circles, say nothing") {
+  FrameTree frames;
+  frames.add(lies("odom", "base", 0.0, 0.0, 0.0));
+  frames.add(lies("base", "laser", 0.2, 0.0, 0.0));
+  CHECK(frames.find("odom", "laser"));
+  frames.add(lies("odom", "base", 1.0, 0.0, 0.0));
+  frames.add(lies("base", "laser", 0.2, 0.0, 0.0));
+  CHECK_FALSE(frames.find("odom", "laser"));
+  CHECK(frames.find("base", "laser"));
+  CHECK_FALSE(frames.find("base", "camera"));
+  frames.add(lies("a", "b", 0.0, 0.0, 0.0));
+  frames.add(lies("b", "a", 0.0, 0.0, 0.0));
+  CHECK_FALSE(frames.find("base", "a"));
 }
 
 }  // namespace

@@ -196,19 +196,17 @@ TEST_CASE("where the odometry's child joins nothing, base_link is tried") {
   CHECK(holds(log.complaint(), "from base_link to laser"));
 }
 
-TEST_CASE("scans whose number of beams changes are read alike, and empty ones told") {
+TEST_CASE("scans whose number of beams changes are read alike") {
   std::vector<MadeMessage> drive = made_drive(false);
   rewrite(drive, "/scan", [](std::int64_t ns, int k) {
-    const std::size_t beams = k < 2 ? 0 : k == 2 ? 200 : 447 + static_cast<std::size_t>(k) % 5;
-    const std::vector<float> ranges(beams, 3.0F);
-    const float step = 6.28318531F / static_cast<float>(std::max<std::size_t>(beams, 1));
-    return scan_bytes(false, ns, "laser", ranges, {.step_rad = step});
+    const std::size_t beams = k == 2 ? 200 : 447 + static_cast<std::size_t>(k) % 5;
+    const float step = 6.28318531F / static_cast<float>(beams);
+    return scan_bytes(false, ns, "laser", std::vector<float>(beams, 3.0F), {.step_rad = step});
   });
   const sim::RecordedLog log = read_as_mcap(drive);
-  REQUIRE(log.scans.size() == 8);
+  REQUIRE(log.scans.size() == 10);
   for (const sim::RecordedScan& scan : log.scans) CHECK(scan.beams == log.scans.back().beams);
   CHECK(std::count(log.range_m.begin(), log.range_m.end(), 3.0F) == static_cast<std::ptrdiff_t>(log.range_m.size()));
-  CHECK(holds(log.complaint(), "/scan: 2 messages left out, the first is message 1: it is empty"));
 }
 
 }  // namespace

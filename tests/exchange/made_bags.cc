@@ -145,21 +145,6 @@ std::string frames_bytes(bool ros1, const std::vector<MadeFrame>& frames) {
   return out.message();
 }
 
-std::string foxglove_scan_bytes(std::int64_t ns, const std::string& frame, double last_rad,
-                                const std::vector<double>& ranges) {
-  std::string packed;
-  for (const double range : ranges) packed += raw(range);
-  return proto(1, proto(1, ns / kBillion) + proto(2, ns % kBillion)) + proto(2, frame) + proto(4, 0.0) +
-         proto(5, last_rad) + proto(6, packed) + proto(7, packed);
-}
-
-std::string foxglove_frame_bytes(const MadeFrame& frame) {
-  const auto& q = frame.quaternion;
-  return proto(1, proto(1, std::int64_t{5})) + proto(2, frame.parent) + proto(3, frame.child) +
-         proto(4, proto(1, frame.x) + proto(2, frame.y)) +
-         proto(5, proto(1, q[0]) + proto(2, q[1]) + proto(3, q[2]) + proto(4, q[3]));
-}
-
 std::vector<MadeMessage> made_drive(bool ros1) {
   std::vector<MadeMessage> drive{
       {"/tf_static", "tf2_msgs/TFMessage", kBillion, frames_bytes(ros1, {{"base_link", "laser", 0.2, 0.0}})}};
@@ -235,11 +220,9 @@ void write_sqlite(const std::string& file, const std::vector<MadeMessage>& messa
       "offered_qos_profiles TEXT);"
       "CREATE TABLE messages(id INTEGER PRIMARY KEY, topic_id INTEGER, timestamp INTEGER, data BLOB); BEGIN");
   const auto numbers = numbered(messages);
-  std::map<std::string, bool> known;
   for (const MadeMessage& m : messages) {
     const std::string n = std::to_string(numbers.at(m.topic));
-    if (!std::exchange(known[m.topic], true))
-      run("INSERT INTO topics VALUES(" + n + ", '" + m.topic + "', '" + ros2_name(m.type) + "', 'cdr', '')");
+    run("INSERT OR IGNORE INTO topics VALUES(" + n + ", '" + m.topic + "', '" + ros2_name(m.type) + "', 'cdr', '')");
     sqlite3_stmt* insert = nullptr;
     const std::string sql =
         "INSERT INTO messages(topic_id, timestamp, data) VALUES(" + n + ", " + std::to_string(m.ns) + ", ?)";
@@ -260,11 +243,17 @@ sim::RecordedLog read_as_mcap(const std::vector<MadeMessage>& messages, const ex
 
 std::vector<MadeMessage> made_foxglove_drive() {
   std::vector<MadeMessage> drive = made_drive(false);
-  drive.front() = {"/frames", "foxglove.FrameTransform", 1, foxglove_frame_bytes({"base_link", "laser", 0.2, 0.1})};
+  const std::string no_turn = proto(1, 0.0) + proto(2, 0.0) + proto(3, 0.0) + proto(4, 1.0);
+  drive.front() = {"/frames", "foxglove.FrameTransform", 1,
+                   proto(1, proto(1, std::int64_t{5})) + proto(2, "base_link") + proto(3, "laser") +
+                       proto(4, proto(1, 0.2) + proto(2, 0.1)) + proto(5, no_turn)};
+  std::string ranges;
+  for (const double range : {1.0, 2.0, 7.5, 4.0}) ranges += raw(range);
   for (MadeMessage& message : drive) {
     if (message.topic != "/scan") continue;
     message.type = "foxglove.LaserScan";
-    message.bytes = foxglove_scan_bytes(message.ns, "laser", 3.0, {1.0, 2.0, 7.5, 4.0});
+    message.bytes = proto(1, proto(1, message.ns / kBillion) + proto(2, message.ns % kBillion)) + proto(2, "laser") +
+                    proto(4, 0.0) + proto(5, 3.0) + proto(6, ranges) + proto(7, ranges);
   }
   return drive;
 }

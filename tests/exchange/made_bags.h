@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/formats/bag_log.h"
+#include "apps/formats/bag_file.h"
 
 namespace jaywalk::tests {
 
@@ -36,11 +36,7 @@ struct MadeFrame {
 /// Ten scans and ten poses 0.1 m apart, and the laser 0.2 m ahead of the robot's middle.
 [[nodiscard]] std::vector<MadeMessage> made_drive(bool ros1);
 
-/// foxglove.LaserScan and foxglove.FrameTransform in protobuf: beams from 0 to `last_rad`.
-[[nodiscard]] std::string foxglove_scan_bytes(std::int64_t ns, const std::string& frame, double last_rad,
-                                              const std::vector<double>& ranges);
-[[nodiscard]] std::string foxglove_frame_bytes(const MadeFrame& frame);
-/// made_drive() in Foxglove's messages, four beams a scan.
+/// made_drive() in Foxglove's messages, in protobuf, the laser 0.1 m to the left; four beams a scan, 1 rad apart.
 [[nodiscard]] std::vector<MadeMessage> made_foxglove_drive();
 
 /// A type without "/" is Foxglove's, in protobuf. `pack_each`: messages packed one by one with zstd, as rosbag2's

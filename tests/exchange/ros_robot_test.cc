@@ -20,22 +20,14 @@ const LaserModel kLaser{.robot_from_laser = {}, .fov_rad = kPi, .beams = 5, .rat
 /// Stamped a millisecond after the one before.
 ScanMessage half_turn(std::vector<float> ranges) {
   static Time stamp{1'800'000'000s};
-  ScanMessage scan;
-  scan.stamp = stamp += 1ms;
-  scan.first_angle_rad = static_cast<float>(-kPi / 2.0);
-  scan.angle_step_rad = static_cast<float>(kPi / (static_cast<double>(ranges.size()) - 1.0));
-  scan.beam_step_s = 0.01F;
-  scan.range_min_m = 0.1F;
-  scan.range_max_m = 10.0F;
-  scan.range_m = std::move(ranges);
-  return scan;
+  stamp += 1ms;
+  const double step = kPi / (static_cast<double>(ranges.size()) - 1.0);
+  return {{.stamp = stamp},  "", static_cast<float>(-kPi / 2.0), static_cast<float>(step), 0.01F, 0.1F, 10.0F,
+          std::move(ranges), {}};
 }
 
 OdometryMessage odometry_at(double x, double y, double heading, Twist2 twist = {}) {
-  OdometryMessage odometry;
-  odometry.pose = {x, y, heading};
-  odometry.twist = twist;
-  return odometry;
+  return {{}, "", {x, y, heading}, twist};
 }
 
 double rad(std::uint32_t angle) { return ros::kAngle_rad * static_cast<std::int32_t>(angle); }

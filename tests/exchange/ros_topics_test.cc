@@ -96,11 +96,10 @@ TEST_CASE("each of two scanners has a topic and a frame of its own, and one alon
   LaserScan& scan = told.t->scan;
   scan.sequence = 1, scan.beam_count = 3, scan.range_max_m = 9.0F;
   REQUIRE(told.t->other_scans.push_back(scan));
-  constexpr std::uint32_t kAll = kAllTopics | (1U << kOtherScans);
   for (const std::uint32_t sequence : {1U, 1U, 2U}) {
     told.roll(1.0, 0.0, {});
     told.t->other_scans[0].sequence = sequence;
-    told.topics.add(*told.t, {}, told.t->path, model, kAll);
+    told.topics.add(*told.t, {}, told.t->path, model);
   }
   CHECK(told.messages[kScan].size() == 1);
   CHECK(told.messages[kOtherScans].size() == 2);  // each as it is new

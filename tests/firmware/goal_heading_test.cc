@@ -116,7 +116,7 @@ TEST_CASE("a wheelchair that is to look out of a dead end that it cannot turn in
   });
   bool turns = false;
   CHECK(drive.drive(90.0, [&](const TickRecord& t) {
-    turns = turns || drive.loop().turns_at_goal();
+    turns = turns || drive.loop().motion().status().turns_at_goal;
     return is_there(drive, t.input) || drive.truth().contacts > 0;
   }));
   CHECK(turns);
@@ -131,7 +131,7 @@ TEST_CASE("a robot that keeps its speed does not turn at the goal") {
   };
   SimulatedDrive drive("door", 1, to_look_back, PlanMode::kPaper);
   CHECK(drive.drive(10.0, [&](const TickRecord&) { return drive.to_goal_m() < 0.1; }));
-  CHECK_FALSE(drive.loop().turns_at_goal());
+  CHECK_FALSE(drive.loop().motion().status().turns_at_goal);
   CHECK(drive.truth().twist.v_mps > 0.5);
 }
 
@@ -145,7 +145,7 @@ TEST_CASE("turning at the goal asks nothing of the heap and replays to the same 
     };
     SimulatedDrive drive("door", 1, to_look_back, PlanMode::kFull, file);
     CHECK(drive.heap_calls(50 * 12, [&](const TickRecord&) {
-      turning += drive.loop().turns_at_goal() && drive.truth().twist.w_radps != 0.0 ? 1 : 0;
+      turning += drive.loop().motion().status().turns_at_goal && drive.truth().twist.w_radps != 0.0 ? 1 : 0;
     }) == 0);
     REQUIRE(drive.recorder().close());
   }

@@ -17,24 +17,18 @@ struct Chair {
 
   const PoseGuide& from(const Pose2& robot, Vec2 goal, double heading = kAnyHeading) {
     const field::Window window{{-118, -118}, 256, 0.1};
-    guide = places_.settle({.window = window,
-                            .still = &ground_.map(),
-                            .movers = {},
-                            .standing = standing,
-                            .robot_in_map = robot.position(),
-                            .goal_in_map = goal,
-                            .speed_mps = 0.6},
-                           place_memory_);
     const bool wants = std::isfinite(heading);
-    return poses = field_.settle({.guide = guide,
-                                  .map_from_robot = robot,
-                                  .goal_in_map = goal,
-                                  .standing = standing,
-                                  .asked = {.is_asked = true,
-                                            .speeds = kSpeeds,
-                                            .wants_heading = wants,
-                                            .heading = wants ? static_cast<float>(heading) : 0.0F}},
-                                 memory);
+    const PlanRequest request{.map_from_robot = robot,
+                              .goal_in_map = goal,
+                              .speed_mps = 0.6,
+                              .still = &ground_.map(),
+                              .standing = standing,
+                              .poses = {.is_asked = true,
+                                        .speeds = kSpeeds,
+                                        .wants_heading = wants,
+                                        .heading = wants ? static_cast<float>(heading) : 0.0F}};
+    guide = places_.settle(request, window, place_memory_);
+    return poses = field_.settle(request, guide, memory);
   }
   [[nodiscard]] float seconds(double x, double y, double heading) const {
     return poses.time_to_go(guide, static_cast<float>(x), static_cast<float>(y), static_cast<float>(heading));

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "hal/types/trig.h"
-#include "planner/cell/circle.h"
 #include "tests/support/catch.h"
 
 using namespace jaywalk;

@@ -178,7 +178,7 @@ TEST_CASE("a wheelchair at 0.6 m/s is at rest before somebody who crosses 1.5 m 
   test::Guided ground;
   tests::Moment moment(ground.map());
   moment.go_to({5.0, 0.0});
-  moment.driven = moment.wanted = {0.6, 0.0};
+  moment.driven = {0.6, 0.0};
   GoalRollouts planner({.model = wheelchair(), .tick_s = kTick});
   const Footprint body = wheelchair().footprint;
   const double touches_s = (1.5 - body.front_m) / 0.6 + late_s;  // its front is there then, if it drives on

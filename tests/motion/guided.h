@@ -19,14 +19,13 @@ class Guided {
   void forget(CellIndex cell) { ground_.forget(cell); }
   const Guide& towards(Vec2 robot, Vec2 goal) {
     const field::Window window{{-118, -118}, 256, 0.1};
-    guide_ = field_.settle({.window = window,
-                            .still = &ground_.map(),
-                            .movers = movers,
-                            .standing = standing,
-                            .robot_in_map = robot,
+    guide_ = field_.settle({.map_from_robot = {robot.x, robot.y, 0.0},
                             .goal_in_map = goal,
-                            .speed_mps = 0.6},
-                           memory_);
+                            .speed_mps = 0.6,
+                            .still = &ground_.map(),
+                            .standing = standing,
+                            .masked = movers},
+                           window, memory_);
     return guide_;
   }
   [[nodiscard]] const Guide& guide() const { return guide_; }

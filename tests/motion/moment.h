@@ -24,7 +24,7 @@ struct Moment {
   const EvidenceMap& still;
   Time now = time_from_seconds(1.0);
   Pose2 pose;
-  Twist2 wanted, driven;
+  Twist2 driven;
   OperatorInput input;
   LaserScan scan;
   Plan plan;
@@ -43,7 +43,6 @@ struct Moment {
   [[nodiscard]] motion::World world() const {
     return {.now = now,
             .map_from_robot = pose,
-            .wanted = wanted,
             .driven = driven,
             .input = input,
             .scan = scan,
@@ -55,7 +54,7 @@ struct Moment {
   /// A tick of a robot that does what it is told, and where it is then.
   void drive(motion::Motion& motion, double tick_s) {
     motion.observe(world(), intent());
-    driven = wanted = motion.command(world(), intent());
+    driven = motion.command(world(), intent());
     const Vec2 along = direction(pose.heading + 0.5 * driven.w_radps * tick_s);
     pose = {pose.x + driven.v_mps * tick_s * along.x, pose.y + driven.v_mps * tick_s * along.y,
             wrap_angle(pose.heading + driven.w_radps * tick_s)};

@@ -202,7 +202,7 @@ TEST_CASE("to stand in place of full speed costs some three seconds, the wish it
   const StickRollout way = roll_out_stick(driving, {0.6F, 0.0F}, bounds);
   std::array<RobotState, kFollowedSteps> stands{};
   CHECK(seconds_off(way, stands.data(), bounds) == Approx(3.1F).margin(0.01));
-  CHECK(seconds_off(way, way.states.data(), bounds) == 0.0F);
+  CHECK(seconds_off(way, way.data(), bounds) == 0.0F);
 }
 
 TEST_CASE("an outline is as far from a wall as the body, ahead, beside and at its corners") {
@@ -231,10 +231,10 @@ TEST_CASE("a body's gap to a place is that of its rectangle") {
 TEST_CASE("every shape is at rest within five seconds, and none drives faster than wished or the other way") {
   const RobotBody body = robot_body(p3dx().footprint, p3dx().limits, p3dx().laser, 1.0);
   const Command wish{0.4F, 0.3F};
-  for (int n = 0; n < shape_count(); ++n) {
+  each_shape(body.bounds, [&](const StickShape& shape) {
     Trajectory trajectory;
     RobotState robot{0.0F, 0.0F, 0.0F, 0.6F, 0.0F, 0.0F};
-    make(shape_at(n, body.bounds), wish, robot, body.bounds, trajectory);
+    make(shape, wish, robot, body.bounds, trajectory);
     for (int step = 0; step < kStickSteps; ++step) {
       const Command command = trajectory.commands[static_cast<std::size_t>(step)];
       REQUIRE(command.v >= 0.0F);
@@ -243,5 +243,5 @@ TEST_CASE("every shape is at rest within five seconds, and none drives faster th
     }
     REQUIRE(std::fabs(robot.v) < 0.02F);
     REQUIRE(std::fabs(robot.w) < 0.02F);
-  }
+  });
 }

@@ -54,7 +54,7 @@ struct Scene {
   const Guide& guide = ground.guide();
   RobotBody body = body_of(0.6F);
   std::unique_ptr<Futures> futures = std::make_unique<Futures>();
-  Situation situation{body, guide, *futures, returns, {}, goal, 0.0F, {}, 0.24F};
+  Situation situation{{{}, goal}, body, guide, *futures, returns, 0.24F};
 };
 
 /// What a robot in the open, its goal 4 m ahead, would pay for one command held all the time.
@@ -288,12 +288,11 @@ TEST_CASE("where every trajectory touches somebody, the one that is at rest soon
   Cost best{.time = 1e9F, .hit_share = 1.0F};
   std::array<RobotState, kSteps> driven{}, best_driven{};
   Trajectory trial;
-  for (int n = 0; n < proposals.count(); ++n) {
-    proposals.make(n, trial);
-    const Cost cost = near.cost_of(trial, driven.data());
+  proposals.each(trial, [&](const Trajectory& proposed) {
+    const Cost cost = near.cost_of(proposed, driven.data());
     CHECK_FALSE(cost.is_safe());
     if (cost.is_better_than(best)) best = cost, best_driven = driven;
-  }
+  });
   CHECK(best_driven[5].v == Approx(0.0F).margin(1e-5));  // 0.6 m/s at 1 m/s2
 }
 

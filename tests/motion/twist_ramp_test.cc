@@ -74,7 +74,7 @@ TEST_CASE("turning speeds up by the turn acceleration alone: 3 rad/s2 in 20 ms i
 
 TEST_CASE("wheels turn as the twist has it, beyond the motors slower on the same curve, by no number not at all") {
   // Wheels of radius 0.1 m, 0.4 m apart, at most 10 rad/s: 1 m/s of rim.
-  const DiffDrive drive({.wheel_radius_m = 0.1, .track_width_m = 0.4, .max_wheel_speed_radps = 10.0});
+  const DriveModel drive{.wheel_radius_m = 0.1, .track_width_m = 0.4, .max_wheel_speed_radps = 10.0};
   struct Row {
     const char* name;
     Twist2 twist;
@@ -86,7 +86,7 @@ TEST_CASE("wheels turn as the twist has it, beyond the motors slower on the same
                       {"no number", {std::numeric_limits<double>::quiet_NaN(), 0.0}, 0.0, 0.0}};
   for (const Row& row : rows) {
     CAPTURE(row.name);
-    const WheelCommand command = drive.wheel_speeds(row.twist, kNever);
+    const WheelCommand command = wheel_speeds(drive, row.twist, kNever);
     CHECK(command.left_radps == Approx(row.left_radps));
     CHECK(command.right_radps == Approx(row.right_radps));
   }

@@ -1,8 +1,7 @@
 // A wheelchair along the way that its pose guide has.
-#include "planner/motion/way_pursuit.h"
-
 #include <memory>
 
+#include "planner/motion/proposals.h"
 #include "tests/motion/chair.h"
 #include "tests/support/catch.h"
 
@@ -32,7 +31,7 @@ Followed follow(Chair& chair, const Pose2& start, Vec2 goal, double heading = kA
     CAPTURE(here.x, here.y, here.heading, robot.v, robot.w, done.steps, done.least_room_m);
     REQUIRE(chair.from(here, goal, heading).known);
     const Place place{static_cast<float>(goal.x), static_cast<float>(goal.y)};
-    Situation s{body, chair.guide, *nobody, no_returns, robot, place, 0.0F, {}, 0.24F};
+    Situation s{{robot, place}, body, chair.guide, *nobody, no_returns, 0.24F};
     s.poses = &chair.poses;
     s.wants_heading = std::isfinite(heading);
     s.goal_heading = s.wants_heading ? static_cast<float>(heading) : 0.0F;

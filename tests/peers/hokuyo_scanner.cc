@@ -8,7 +8,7 @@
 #include <cstdio>
 #include <memory>
 
-#include "hil/emulators/network_scanners.h"
+#include "hil/emulators/scanners.h"
 
 int main() {
   using namespace jaywalk;

@@ -22,6 +22,29 @@ std::unique_ptr<Detections> clusters_behind(double edge_y) {
   return clusters_of({.walls = {{{2.0, -3.0}, {2.0, edge_y}}}, .discs = {{{4.0, 0.0}, 0.4}}});
 }
 
+/// Targets 0.27 m in radius that were seen three times, each where a disc of the scan is; and the scan cut at jumps.
+struct SideBySide : CutScan {
+  explicit SideBySide(const std::vector<Vec2>& places) : CutScan(scan_of(discs_at(places), {}, 1)) {}
+  static Room discs_at(const std::vector<Vec2>& places) {
+    Room room;
+    for (const Vec2 place : places) room.discs.push_back({place, 0.27});
+    return room;
+  }
+  void know(Vec2 place, bool moving = true) {
+    Target target = born_at(place, 0.01, 0.27, time_from_seconds(0.0), static_cast<std::uint32_t>(targets.size() + 1));
+    target.estimate.track.hits = 3;
+    target.estimate.track.moving = moving;
+    target.appearance.arc_m = 0.27;
+    REQUIRE(targets.push_back(target));
+  }
+  /// The width of segment `k`, m.
+  [[nodiscard]] double width_m(std::size_t k) const {
+    return distance(in_map.position[segments[k].first], in_map.position[segments[k].last]);
+  }
+
+  Targets targets;
+};
+
 }  // namespace
 
 TEST_CASE("where a side has the middle of who comes out does not depend on how much of him is in view") {
@@ -144,33 +167,6 @@ TEST_CASE("two points are a leg where legs have no more, and a new target only w
   CHECK_FALSE((*beside)[1].sparse);
 }
 
-namespace {
-
-/// Targets 0.27 m in radius that were seen three times, each where a disc of the scan is; and the scan cut at jumps.
-struct SideBySide : CutScan {
-  explicit SideBySide(const std::vector<Vec2>& places) : CutScan(scan_of(discs_at(places), {}, 1)) {}
-  static Room discs_at(const std::vector<Vec2>& places) {
-    Room room;
-    for (const Vec2 place : places) room.discs.push_back({place, 0.27});
-    return room;
-  }
-  void know(Vec2 place, bool moving = true) {
-    Target target = born_at(place, 0.01, 0.27, time_from_seconds(0.0), static_cast<std::uint32_t>(targets.size() + 1));
-    target.estimate.track.hits = 3;
-    target.estimate.track.moving = moving;
-    target.appearance.arc_m = 0.27;
-    REQUIRE(targets.push_back(target));
-  }
-  /// The width of segment `k`, m.
-  [[nodiscard]] double width_m(std::size_t k) const {
-    return distance(in_map.position[segments[k].first], in_map.position[segments[k].last]);
-  }
-
-  Targets targets;
-};
-
-}  // namespace
-
 TEST_CASE("three known targets a hand apart are three segments and unknown ones stay one") {
   const std::vector<Vec2> places{{3.0, -0.57}, {3.0, 0.0}, {3.0, 0.57}};  // 3 cm between them
   const auto seen = std::make_unique<SideBySide>(places);
@@ -188,22 +184,16 @@ TEST_CASE("three known targets a hand apart are three segments and unknown ones 
   CHECK(seen->segments[2].last + 1 == seen->points.size());
 }
 
-TEST_CASE("one target is not cut in two for another that is expected half in it") {
-  const auto seen = std::make_unique<SideBySide>(std::vector<Vec2>{{3.0, 0.0}});
-  seen->know({3.0, -0.2});  // they begin and end it, but 0.54 m is less than three quarters of 1.08 m
-  seen->know({3.0, 0.2});
-  split_detections(seen->targets, seen->in_map, seen->segments);
-  CHECK(seen->segments.size() == 1);
-}
-
-TEST_CASE("two of whom one moves are cut and two that stand are not") {
-  const std::vector<Vec2> places{{3.0, -0.285}, {3.0, 0.285}};
-  for (const bool moves : {false, true}) {
+TEST_CASE("two of whom one moves are cut, two that stand are not, nor is one for another expected half in it") {
+  const auto segments_of = [](const std::vector<Vec2>& places, double aside_m, bool left_moves, bool right_moves) {
     const auto seen = std::make_unique<SideBySide>(places);
-    seen->know(places[0], moves);
-    seen->know(places[1], false);
+    seen->know({3.0, -aside_m}, left_moves);
+    seen->know({3.0, aside_m}, right_moves);
     REQUIRE(seen->segments.size() == 1);
     split_detections(seen->targets, seen->in_map, seen->segments);
-    CHECK(seen->segments.size() == (moves ? 2 : 1));
-  }
+    return seen->segments.size();
+  };
+  CHECK(segments_of({{3.0, -0.285}, {3.0, 0.285}}, 0.285, true, false) == 2);
+  CHECK(segments_of({{3.0, -0.285}, {3.0, 0.285}}, 0.285, false, false) == 1);
+  CHECK(segments_of({{3.0, 0.0}}, 0.2, true, true) == 1);  // 0.54 m, less than three quarters of 1.08 m
 }

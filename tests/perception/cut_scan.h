@@ -7,15 +7,16 @@
 namespace jaywalk::test {
 
 /// Points, segments and, once found, detections of a scan over ground that was free. Large: for the heap.
-struct CutScan {
-  explicit CutScan(const LaserScan& scan) : sweep(sweep_of(scan)) {
+struct CutScan : ScanPieces {
+  explicit CutScan(const LaserScan& scan) {
+    sweep = sweep_of(scan);
     ScanProjection().project(scan, {}, {}, points);
     begin_at_a_jump(sweep, points);
     for (std::size_t k = 0; k < points.size(); ++k) in_map.position[k] = points[k].in_robot;
     in_map.ground.fill(Ground::kFree);
     cut_at_jumps(points, sweep, segments);
   }
-  void find() { find_detections(points, in_map, segments, sweep, {}, detections); }
+  void find() { find_detections(*this, {}, detections); }
   /// The last detection within `within_m` of a place, or none.
   [[nodiscard]] const Detection* near(Vec2 place, double within_m) const {
     const Detection* found = nullptr;
@@ -23,10 +24,6 @@ struct CutScan {
     return found;
   }
 
-  Sweep sweep;
-  ScanPoints points;
-  PointsInMap in_map;
-  Segments segments;
   Detections detections;
 };
 

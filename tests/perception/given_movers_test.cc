@@ -27,7 +27,7 @@ TEST_CASE("a given mover is moving from its first report and keeps one track for
     tracker.update_given(fix_with(k + 1, 0.2 * k, {{.id = 7, .position_in_map = {0.08 * k, 3.0}, .radius_m = 0.27}}));
     REQUIRE(tracker.moving().size() == 1);
   }
-  const Track& track = tracker.moving()[0];
+  const Track& track = only_mover(tracker);
   CHECK(track.id == 1);
   CHECK(track.radius_m == 0.27);
   CHECK(track.hits == 20);
@@ -109,8 +109,7 @@ TEST_CASE("a report that comes late is of where a given mover was, and not where
     if (k % 3 == 0)
       tracker.update_given(fix_with(k, then_s, {{.id = 7, .position_in_map = {1.2 * then_s, 3.0}, .radius_m = 0.27}}));
   }
-  REQUIRE(tracker.moving().size() == 1);
-  CHECK(tracker.moving()[0].position_in_map.x == Approx(1.2 * 59 / 15.0).margin(0.03));
+  CHECK(only_mover(tracker).position_in_map.x == Approx(1.2 * 59 / 15.0).margin(0.03));
 }
 
 TEST_CASE("a second after the outside system's last word the laser finds movers by itself") {

@@ -136,15 +136,11 @@ TEST_CASE("a measurement far surer than what was believed leaves no variance at 
   CHECK(covariance.vv > 0.0);
 }
 
-TEST_CASE("the gate counts squared standard deviations of the innovation") {
+TEST_CASE("the gate counts squared standard deviations of the innovation when a beam met the track") {
   Track track;
   track.covariance.pp = 0.03;
   // (0.3^2 + 0.4^2) / (0.03 + 0.1^2) = 0.25 / 0.04.
   CHECK(gate_distance2(track, {0.3, 0.4}, 0.1) == Approx(6.25));
-}
-
-TEST_CASE("the gate goes with a track to when a beam met it") {
-  Track track;
   track.velocity_in_map = {1.0, 0.0};
   track.covariance = {.pp = 0.01, .pv = 0.01, .vv = 0.04};
   // Half a second on: at (0.5, 0), of variance 0.01 + 2 x 0.5 x 0.01 + 0.5^2 x 0.04 = 0.03; 0.25 / (0.03 + 0.1^2).

@@ -1,4 +1,3 @@
-// What may have gone while nothing looked there, and what has not.
 #include "tests/perception/watch.h"
 #include "tests/support/catch.h"
 

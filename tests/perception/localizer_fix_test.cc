@@ -1,4 +1,3 @@
-// Fixes from outside, as the localizer takes them.
 #include <cmath>
 #include <limits>
 #include <utility>

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <memory>
 
 #include "planner/localization/odometry.h"
@@ -23,8 +22,18 @@ double heading_error(const Pose2& a, const Pose2& b) { return std::fabs(wrap_ang
 /// A robot in a room, its tracker and localizer, once a scan.
 struct Drive {
   explicit Drive(const Pose2& start)
-      : localizer({.map_from_robot_at_start = start, .drive = kDrive, .robot_from_laser = {}}) {}
+      : robot(start),
+        counted(start),
+        localizer({.map_from_robot_at_start = start, .drive = kDrive, .robot_from_laser = {}}) {}
 
+  /// A scan from where it is; then it drives on, by its wheels a little differently.
+  void go(const Room& room, const Pose2& on, const Pose2& on_by_wheels) {
+    step(room, robot, counted);
+    worst_m = std::max(worst_m, off(robot.position()));
+    worst_rad = std::max(worst_rad, off_rad(robot));
+    robot = robot * on;
+    counted = counted * on_by_wheels;
+  }
   /// The truth, and what the wheels believe it to be.
   void step(const Room& room, const Pose2& truth, const Pose2& by_wheels) {
     LaserScan seen = scan_of(room, truth, ++scan, 0.01);
@@ -35,7 +44,7 @@ struct Drive {
   void step_without_wheels(const Room& room, const Pose2& truth) { look(scan_of(room, truth, ++scan, 0.01)); }
 
   void look(const LaserScan& seen) {
-    estimate = localizer.update(wheels, seen, fix, tracker.still(), tracker.moving());
+    estimate = localizer.update(wheels, seen, {}, tracker.still(), tracker.moving());
     tracker.update(seen, localizer.map_from_robot_at_scan(), localizer.twist());
   }
 
@@ -43,11 +52,12 @@ struct Drive {
   [[nodiscard]] double off(Vec2 truth) const { return distance(estimate.map_from_robot.position(), truth); }
   [[nodiscard]] double off_rad(const Pose2& truth) const { return heading_error(estimate.map_from_robot, truth); }
 
+  Pose2 robot, counted;  ///< where it is, and where its wheels have it
+  double worst_m = 0.0, worst_rad = 0.0;
   Localizer localizer;
   Tracker tracker{{.robot_from_laser = {}, .map_side_cells = 256, .map_centre = {}}};
   recordings::WheelsFromPoses wheels_of{kDrive};
   WheelState wheels;
-  OutsideFix fix;
   PoseEstimate estimate;
   std::uint32_t scan = 0;
   double reach_m = 20.0;  ///< of the laser
@@ -113,16 +123,11 @@ TEST_CASE("scans alone carry the pose round a curve") {
 
 TEST_CASE("a wheel that spins in the air turns the robot as fast as it may, and the scans notice") {
   Drive drive({-4.0, -1.0, 0.0});
-  Pose2 truth{-4.0, -1.0, 0.0}, by_wheels;
-  double farthest_m = 0.0;
-  for (int k = 0; k < 120; ++k) {
-    drive.step(kFurnished, truth, by_wheels);
-    farthest_m = std::max(farthest_m, drive.off(truth.position()));
-    const bool spins = k >= 60 && k < 75;  // a second
-    truth = truth * (spins ? Pose2{0.028, 0.0, 0.073} : Pose2{0.04, 0.0, 0.0});
-    by_wheels = by_wheels * Pose2{0.04, 0.0, 0.0};  // 0.6 m/s
+  for (int k = 0; k < 120; ++k) {  // at 0.6 m/s; from the fourth second to the fifth a wheel spins
+    const bool spins = k >= 60 && k < 75;
+    drive.go(kFurnished, spins ? Pose2{0.028, 0.0, 0.073} : Pose2{0.04, 0.0, 0.0}, {0.04, 0.0, 0.0});
   }
-  CHECK(farthest_m < 0.05);
+  CHECK(drive.worst_m < 0.05);
   CHECK(heading_error(drive.localizer.map_from_robot_at_scan(), {0.0, 0.0, 15 * 0.073}) < 0.02);
 }
 
@@ -157,11 +162,7 @@ TEST_CASE("wheels that fall silent under way leave the pose to the scans, and ta
 TEST_CASE("along a bare corridor the wheels are believed and across it the walls") {
   Drive drive({0.0, 0.0, 0.0});
   // The robot drives 3 m straight on; the wheels agree on that and drift 0.3 rad to the left.
-  Pose2 by_wheels;
-  for (int k = 0; k <= 150; ++k) {
-    drive.step(kCorridor, {0.02 * k, 0.0, 0.0}, by_wheels);
-    by_wheels = by_wheels * Pose2{0.02, 0.0, 0.002};
-  }
+  for (int k = 0; k <= 150; ++k) drive.go(kCorridor, {0.02, 0.0, 0.0}, {0.02, 0.0, 0.002});
   CHECK(drive.estimate.map_from_robot.x == Approx(3.0).margin(0.1));
   CHECK(std::fabs(drive.estimate.map_from_robot.y) < 0.03);
   CHECK(drive.off_rad({}) < 0.01);
@@ -171,30 +172,22 @@ TEST_CASE("wheels that were right for thirty metres are not followed when they s
   const Pose2 step{0.03, 0.0, 0.02};  // a scan: rounds of 9.4 m
   for (const Pose2& spin : {Pose2{0.08, 0.0, 0.05}, Pose2{0.01, 0.0, 0.005}}) {
     Drive drive({1.5, 0.0, kPi / 2});
-    Pose2 truth{1.5, 0.0, kPi / 2}, by_wheels = truth;
-    for (int k = 0; k < 1000; ++k) {
-      drive.step(kFurnished, truth, by_wheels);
-      truth = truth * step;
-      by_wheels = by_wheels * step;
-    }
-    double worst_m = 0.0, worst_rad = 0.0;
+    for (int k = 0; k < 1000; ++k) drive.go(kFurnished, step, step);
+    drive.worst_m = drive.worst_rad = 0.0;
     for (int k = 0; k < 20; ++k) {  // it stands against something; trusted, the wheels would take it 1.6 m and 0.2 m on
-      by_wheels = by_wheels * spin;
-      drive.step(kFurnished, truth, by_wheels);
-      worst_m = std::max(worst_m, drive.off(truth.position()));
-      worst_rad = std::max(worst_rad, drive.off_rad(truth));
+      drive.counted = drive.counted * spin;
+      drive.go(kFurnished, {}, {});
     }
-    CHECK(worst_m < 0.06);
-    CHECK(worst_rad < 0.03);
-    CHECK(drive.off(truth.position()) < 0.01);
+    CHECK(drive.worst_m < 0.06);
+    CHECK(drive.worst_rad < 0.03);
+    CHECK(drive.off(drive.robot.position()) < 0.01);
   }
 }
 
 TEST_CASE("wheels that were long right are believed after a stretch of which the laser sees nothing") {
   Drive drive({0.0, 0.0, 0.0});
-  double x_m = 0.0;
   const auto drive_on = [&](int scans) {
-    for (int k = 0; k < scans; ++k, x_m += 0.05) drive.step(kCorridor, {x_m, 0.0, 0.0}, {x_m, 0.0, 0.0});
+    for (int k = 0; k < scans; ++k) drive.go(kCorridor, {0.05, 0.0, 0.0}, {0.05, 0.0, 0.0});
   };
   drive_on(800);
   const double std_before_m = drive.estimate.position_std_m;
@@ -211,16 +204,13 @@ TEST_CASE("a laser that reaches three metres carries the robot round the end of 
   for (const double wheels_turn : {1.02, 1.05}) {
     Drive drive({-5.0, -1.0, 0.0});
     drive.reach_m = 3.0;
-    Pose2 truth{-5.0, -1.0, 0.0}, by_wheels = truth;
     double worst_m = 0.0;
     // 5.2 m on, half round the wall's end at 1.1 m from it, and back along the other face.
     for (int k = 0; k < 500; ++k) {
-      drive.step(hall, truth, by_wheels);
       const bool turns = k >= 173 && k < 293;
       const Pose2 step{turns ? 1.1 * kPi / 120 : 0.03, 0.0, turns ? kPi / 120 : 0.0};
-      truth = truth * step;
-      by_wheels = by_wheels * Pose2{step.x, 0.0, wheels_turn * step.heading};
-      worst_m = std::max(worst_m, drive.off(truth.position()));
+      drive.go(hall, step, {step.x, 0.0, wheels_turn * step.heading});
+      worst_m = std::max(worst_m, drive.off(drive.robot.position()));
     }
     CHECK(worst_m < 0.15);  // 0.33 and 0.54 where a face is taken for the other
   }

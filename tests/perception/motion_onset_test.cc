@@ -25,8 +25,6 @@ struct Judge {
   LineOfSight sight{scan, {}, {}, {}};
 };
 
-using Sample = PositionHistory::Sample;
-
 /// A walker as wide as people.
 Target body(Vec2 from, Vec2 to, double free_share) {
   Target target = walker(from, to);
@@ -47,8 +45,7 @@ void show_sides(Target& target) { show(target, {3.0, 0.21}, {0.0, 0.05}); }
 /// Its places, in its history alone, 0.1 s apart.
 template <class SampleAt>
 void place(Target& target, int first, int last, const SampleAt& sample_at) {
-  target.onset.positions.clear();
-  for (int k = first; k <= last; ++k) target.onset.positions.add(time_from_seconds(0.1 * k), sample_at(k));
+  target.onset.positions = history(first, last, sample_at);
 }
 
 /// It goes to the left, says its filter.
@@ -154,27 +151,21 @@ TEST_CASE("who stood has set out by his newest places alone") {
   Target target = body({3.0, 0.0}, {3.0, 0.16}, 0.0);  // on ground of which nothing is known
   target.appearance.noise = 2.0;                       // no filter foretold the first step
   go_left(target, 0.4);
-  const auto stands_then_walks = [&](double grows_m) {
-    place(target, 0, 19, [&](int k) {  // 4 cm a scan from the seventeenth on; every second scan sees a beam more
+  const auto stands_then_walks = [&](double grows_m, void (*change)(Appearance&)) {
+    Target changed = target;
+    change(changed.appearance);
+    place(changed, 0, 19, [&](int k) {  // 4 cm a scan from the seventeenth on; every second scan sees a beam more
       const double steps = std::max(0, k - 15), width_m = 0.5 + 0.06 * (k % 2) + grows_m * steps;
       return Sample{.where_in_map = {3.0, 0.04 * steps}, .width_m = width_m, .spacing_m = 0.06, .whole = true};
     });
-    return judged(target);
+    return judged(changed);
   };
-  CHECK(stands_then_walks(0.0) == MotionOnset::kCertain);
-  target.appearance.on_wall = true;  // for so long that he was taken for a wall
-  CHECK(stands_then_walks(0.0) == MotionOnset::kCertain);
-  target.appearance.on_wall = false;
-  CHECK(stands_then_walks(0.02) == MotionOnset::kNone);  // 8 cm wider at the end: half of its way
-  target.appearance.noise = 3.0;
-  CHECK(stands_then_walks(0.0) == MotionOnset::kNone);
-  target.appearance.noise = 2.0;
-  target.appearance.arc_m = 0.1;
-  CHECK(stands_then_walks(0.0) == MotionOnset::kNone);
-  target.appearance.arc_m = 0.25;
-  target.appearance.whole = false;
-  CHECK(stands_then_walks(0.0) == MotionOnset::kNone);
-  target.appearance.whole = true;
+  CHECK(stands_then_walks(0.0, [](Appearance&) {}) == MotionOnset::kCertain);
+  CHECK(stands_then_walks(0.0, [](Appearance& a) { a.on_wall = true; }) == MotionOnset::kCertain);  // taken for one
+  CHECK(stands_then_walks(0.02, [](Appearance&) {}) == MotionOnset::kNone);  // 8 cm wider at the end: half of its way
+  CHECK(stands_then_walks(0.0, [](Appearance& a) { a.noise = 3.0; }) == MotionOnset::kNone);
+  CHECK(stands_then_walks(0.0, [](Appearance& a) { a.arc_m = 0.1; }) == MotionOnset::kNone);
+  CHECK(stands_then_walks(0.0, [](Appearance& a) { a.whole = false; }) == MotionOnset::kNone);
   place(target, 0, 5, [](int k) { return Sample{.where_in_map = {3.0, 0.032 * k}, .whole = true}; });  // never stood
   CHECK(judged(target) == MotionOnset::kLikely);
   target.appearance.noise = 1.0;  // the filter foretold it

@@ -24,6 +24,29 @@ OdometryNoiseEstimator trusted() {
   return trust;
 }
 
+const Eigen::Matrix3d kSure = diagonal(1e-6, 1e-6, 1e-6);  // a millimetre, 0.06 degrees
+const Eigen::Matrix3d kUnknown = diagonal(0.01, 0.01, 0.01);
+
+/// A room of 8 m by 6 m that was seen from its middle for two seconds; the robot is there, and its wheels say that it
+/// has come 0.15 m ahead and turned by 0.1 rad.
+struct SpunWheels {
+  SpunWheels() {
+    for (std::uint32_t k = 1; k <= 30; ++k) tracker.update(scan_of(room, {}, k), {});
+  }
+  MatchResult match(const Pose2& said, bool learnt, std::uint32_t scan) {
+    ScanProjection().project(scan_of(room, {}, scan), {}, {}, points);
+    return watch.match(sample_of(points), tracker.still(), {said, kSure, kUnknown, learnt, coasted});
+  }
+
+  Room room = rectangle(8.0, 6.0);
+  Tracker tracker{{.robot_from_laser = {}, .map_side_cells = 256, .map_centre = {}}};
+  ScanPoints points;
+  SlipDetector watch;
+  PoseBelief coasted{{}, kSure};
+};
+
+double off(const MatchResult& found) { return norm(found.belief.map_from_robot.position()); }
+
 }  // namespace
 
 TEST_CASE("wheels that the map never corrects are doubted half as much from window to window, down to a bound") {
@@ -108,33 +131,6 @@ TEST_CASE("metres before the pose was moved by something else say nothing of the
   CHECK(told.turn_per_m() > 0.04);
   CHECK(drift.turn_per_m() < 0.04);
 }
-
-namespace {
-
-const Eigen::Matrix3d kSure = diagonal(1e-6, 1e-6, 1e-6);  // a millimetre, 0.06 degrees
-const Eigen::Matrix3d kUnknown = diagonal(0.01, 0.01, 0.01);
-
-/// A room of 8 m by 6 m that was seen from its middle for two seconds; the robot is there, and its wheels say that it
-/// has come 0.15 m ahead and turned by 0.1 rad.
-struct SpunWheels {
-  SpunWheels() {
-    for (std::uint32_t k = 1; k <= 30; ++k) tracker.update(scan_of(room, {}, k), {});
-  }
-  MatchResult match(const Pose2& said, bool learnt, std::uint32_t scan) {
-    ScanProjection().project(scan_of(room, {}, scan), {}, {}, points);
-    return watch.match(sample_of(points), tracker.still(), {said, kSure, kUnknown, learnt, coasted});
-  }
-
-  Room room = rectangle(8.0, 6.0);
-  Tracker tracker{{.robot_from_laser = {}, .map_side_cells = 256, .map_centre = {}}};
-  ScanPoints points;
-  SlipDetector watch;
-  PoseBelief coasted{{}, kSure};
-};
-
-double off(const MatchResult& found) { return norm(found.belief.map_from_robot.position()); }
-
-}  // namespace
 
 TEST_CASE("wheels that are believed to a millimetre are not followed away from walls that were matched before") {
   const auto robot = std::make_unique<SpunWheels>();

@@ -10,16 +10,38 @@ namespace {
 
 constexpr DriveModel kDrive{.wheel_radius_m = 0.1, .track_width_m = 0.5, .max_wheel_speed_radps = 14.0};
 
-WheelState reading(std::uint32_t k, double t_s, double left, double right) {
-  return {.stamp = time_from_seconds(t_s), .sequence = k, .left_rad = left, .right_rad = right};
+WheelState reading(std::uint32_t k, double t_s, double left, double right, double speed_radps = 0.0) {
+  return {.stamp = time_from_seconds(t_s),
+          .sequence = k,
+          .left_rad = left,
+          .right_rad = right,
+          .left_radps = speed_radps,
+          .right_radps = speed_radps};
+}
+
+/// At rest at 0 s.
+Odometry begun() {
+  Odometry odometry(kDrive);
+  (void)odometry.take(reading(1, 0.0, 0.0, 0.0));
+  return odometry;
+}
+
+/// After `scans` at 10 Hz on which the robot drove 0.05 m and turned 0.02 rad each; the last at (scans - 1)/10 s.
+Coasting driven(int scans) {
+  Coasting coasting;
+  Pose2 there{3.0, -1.0, 0.7};
+  for (int k = 0; k < scans; ++k) {
+    coasting.placed(there, time_from_seconds(0.1 * k));
+    there = there * Pose2{0.05, 0.0, 0.02};
+  }
+  return coasting;
 }
 
 }  // namespace
 
 TEST_CASE("a quarter circle of radius 1 m ends at (1, 1) facing left") {
   // The left wheel rolls 0.75 pi/2 m, the right 1.25 pi/2 m; on wheels of 0.1 m ten times as many radians.
-  Odometry odometry(kDrive);
-  (void)odometry.take(reading(1, 0.0, 0.0, 0.0));
+  Odometry odometry = begun();
   const ArcStep step = odometry.take(reading(2, 2.0, 7.5 * kPi / 2, 12.5 * kPi / 2));
   CHECK(step.distance_m == Approx(kPi / 2));
   CHECK(step.turn_rad == Approx(kPi / 2));
@@ -28,8 +50,7 @@ TEST_CASE("a quarter circle of radius 1 m ends at (1, 1) facing left") {
 }
 
 TEST_CASE("a scan between two readings is placed between them") {
-  Odometry odometry(kDrive);
-  (void)odometry.take(reading(1, 0.0, 0.0, 0.0));
+  Odometry odometry = begun();
   (void)odometry.take(reading(2, 1.0, 10.0, 10.0));  // 1 m straight on
   CHECK(odometry.at(time_from_seconds(0.25)).x == Approx(0.25));
   CHECK(odometry.at(time_from_seconds(-5.0)).x == Approx(0.0));
@@ -37,9 +58,7 @@ TEST_CASE("a scan between two readings is placed between them") {
 
 TEST_CASE("a scan after the last reading is placed by its speed, for a quarter of a second at most") {
   Odometry odometry(kDrive);
-  WheelState wheels = reading(1, 0.0, 0.0, 0.0);
-  wheels.left_radps = wheels.right_radps = 5.0;  // 0.5 m/s
-  (void)odometry.take(wheels);
+  (void)odometry.take(reading(1, 0.0, 0.0, 0.0, 5.0));  // 0.5 m/s
   CHECK(odometry.at(time_from_seconds(0.05)).x == Approx(0.025));
   CHECK(odometry.at(time_from_seconds(10.0)).x == Approx(0.125));
 }
@@ -56,8 +75,7 @@ TEST_CASE("wheels are silent after a quarter of a second, or two and a half of t
 }
 
 TEST_CASE("after a silence in which nothing matched the wheels count on from before it, and the guess is forgotten") {
-  Odometry odometry(kDrive);
-  (void)odometry.take(reading(1, 0.0, 0.0, 0.0));
+  Odometry odometry = begun();
   odometry.coast({0.6, 0.0, 0.0}, time_from_seconds(1.0));
   odometry.coast({0.6, 0.0, 0.0}, time_from_seconds(2.0));
   const WheelState back = reading(2, 2.1, 3.0, 3.0);  // it braked after 0.3 m
@@ -77,14 +95,12 @@ TEST_CASE("counters that began anew in a silence do not bridge it") {
 }
 
 TEST_CASE("after a silence with matches the robot is where they put it, and the first reading goes by its speed") {
-  Odometry odometry(kDrive);
-  (void)odometry.take(reading(1, 0.0, 0.0, 0.0));
+  Odometry odometry = begun();
   odometry.coast({0.6, 0.0, 0.0}, time_from_seconds(1.0));
   odometry.placed();
   CHECK_FALSE(odometry.by_wheels());
-  WheelState back = reading(2, 1.1, 6.0, 6.0);  // 0.6 m in all, that the robot has gone already
-  back.left_radps = back.right_radps = 5.0;     // 0.5 m/s
-  CHECK(odometry.take(back).distance_m == Approx(0.05));
+  // 0.6 m in all, that the robot has gone already, and 0.5 m/s.
+  CHECK(odometry.take(reading(2, 1.1, 6.0, 6.0, 5.0)).distance_m == Approx(0.05));
   CHECK(odometry.by_wheels());
   CHECK(odometry.odom_from_robot().x == Approx(0.65));
   CHECK(odometry.take(reading(3, 1.2, 6.5, 6.5)).distance_m == Approx(0.05));
@@ -116,12 +132,8 @@ TEST_CASE("encoders that restart or report nonsense do not move the robot") {
 TEST_CASE("wheels that are known to pull to the left are put right, and their speed as well") {
   Odometry odometry(kDrive);
   odometry.set_radius_bias(0.1);
-  WheelState wheels = reading(1, 0.0, 0.0, 0.0);
-  (void)odometry.take(wheels);
-  wheels = reading(2, 4.0, 20.0, 20.0);  // 2 m: 0.2 rad
-  wheels.left_radps = wheels.right_radps = 5.0;
-  const ArcStep step = odometry.take(wheels);
-  CHECK(step.turn_rad == Approx(0.2));
+  (void)odometry.take(reading(1, 0.0, 0.0, 0.0));
+  CHECK(odometry.take(reading(2, 4.0, 20.0, 20.0, 5.0)).turn_rad == Approx(0.2));  // 2 m: 0.2 rad
   CHECK(odometry.odom_from_robot().heading == Approx(0.2));
   CHECK(odometry.twist().w_radps == Approx(0.05));  // 0.5 m/s
 }
@@ -140,30 +152,11 @@ TEST_CASE("a clock that is set back puts no scan where the robot was before") {
 
 TEST_CASE("a speed that no motor has moves nobody after a silence, and none is left while they say nothing") {
   Odometry odometry(kDrive);
-  WheelState wheels = reading(1, 0.0, 0.0, 0.0);
-  wheels.left_radps = wheels.right_radps = 5.0;
-  (void)odometry.take(wheels);
+  (void)odometry.take(reading(1, 0.0, 0.0, 0.0, 5.0));
   odometry.coast({}, time_from_seconds(1.0));
   CHECK(odometry.at(time_from_seconds(1.2)).x == 0.0);
-  wheels.stamp = time_from_seconds(1.2);
-  wheels.left_radps = wheels.right_radps = 1e6;
-  CHECK(odometry.take(wheels).distance_m == 0.0);
+  CHECK(odometry.take(reading(1, 1.2, 0.0, 0.0, 1e6)).distance_m == 0.0);
 }
-
-namespace {
-
-/// After `scans` at 10 Hz on which the robot drove 0.05 m and turned 0.02 rad each; the last at (scans - 1)/10 s.
-Coasting driven(int scans) {
-  Coasting coasting;
-  Pose2 there{3.0, -1.0, 0.7};
-  for (int k = 0; k < scans; ++k) {
-    coasting.placed(there, time_from_seconds(0.1 * k));
-    there = there * Pose2{0.05, 0.0, 0.02};
-  }
-  return coasting;
-}
-
-}  // namespace
 
 TEST_CASE("who was placed goes on as he went") {
   const Coasting coasting = driven(12);

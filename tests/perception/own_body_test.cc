@@ -25,10 +25,7 @@ struct Carrier {
     for (int k = 0; k <= 300; ++k) see(with({}), {0.0, 0.0, wrap_angle(6.0 * 2.0 * kPi * k / 300)});
   }
   [[nodiscard]] const Track* track_near(Vec2 place) const {
-    const auto tracks = watch->tracker.tracks();
-    const auto it = std::find_if(tracks.begin(), tracks.end(),
-                                 [&](const Track& t) { return distance(t.position_in_map, place) < 0.5; });
-    return it == tracks.end() ? nullptr : &*it;
+    return test::track_near(watch->tracker.tracks(), place, 0.5);
   }
 };
 
@@ -68,9 +65,7 @@ TEST_CASE("who comes out from behind blanked beams is seen to move") {
   Blanked robot({{0.35, 0.65}, {-0.65, -0.35}});
   const auto walker = [](double k) { return Disc{{3.0, 2.5 - 0.05 * k}, 0.25}; };
   for (int k = 0; k < 50; ++k) robot.see(with({walker(k)}), {});
-  const auto tracks = robot.watch->tracker.moving();
-  REQUIRE(tracks.size() == 1);
-  CHECK(distance(tracks[0].position_in_map, walker(49).centre) < 0.2);
+  CHECK(distance(only_mover(robot.watch->tracker).position_in_map, walker(49).centre) < 0.2);
 }
 
 TEST_CASE(
@@ -126,7 +121,7 @@ TEST_CASE("who goes behind beams that are blocked for good walks on there as beh
   };
   for (int k = 0; k < 30; ++k) see(with({}), {0.0, 0.0, 0.05 * (k - 30)});
   for (int k = 0; k < 46; ++k) see(with({{{3.0 - k / 15.0, 2.5}, 0.25}}), {});  // 1 m/s, half behind it
-  REQUIRE(watch.tracker.moving().size() == 1);
-  CHECK(distance(watch.tracker.moving()[0].position_in_map, {0.0, 2.5}) < 0.06);
-  CHECK(watch.tracker.moving()[0].velocity_in_map.x == Approx(-1.0).margin(0.15));
+  const Track& goes = only_mover(watch.tracker);
+  CHECK(distance(goes.position_in_map, {0.0, 2.5}) < 0.06);
+  CHECK(goes.velocity_in_map.x == Approx(-1.0).margin(0.15));
 }

@@ -104,7 +104,7 @@ TEST_CASE("furniture that comes into view is nobody, though its ground had been 
 TEST_CASE("nothing is told of what is hidden, too far off, or as wide as people") {
   const auto legs_of = [](const Room& room, Vec2 place, const Fan& fan = {}) {
     const auto cut = std::make_unique<CutScan>(scan_of(room, {}, 1, 0.0, fan));
-    return two_legs_at(place, cut->points, cut->in_map, cut->segments, cut->sweep);
+    return two_legs_at(place, *cut);
   };
   const Vec2 place{3.0, 0.0};
   CHECK(legs_of(with({{{3.0, 0.1}, 0.06}, {{3.0, -0.1}, 0.06}}), place) == true);

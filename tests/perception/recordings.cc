@@ -2,9 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
-#include "apps/formats/logs/line_file.h"
+#include "apps/formats/logs/log_checks.h"
 
 namespace jaywalk::recordings {
 namespace {
@@ -17,10 +16,6 @@ void add_scan(Recording& to, const sim::LineFile& line, double t_s, std::size_t 
   scan.sequence = static_cast<std::uint32_t>(to.scans.size());
   scan.beam_count = static_cast<std::uint32_t>(count);
   for (std::size_t k = 0; k < count; ++k) scan.range_m[k] = static_cast<float>(line.number(first + k));
-}
-
-Pose2 pose_at(const sim::LineFile& line, std::size_t i) {
-  return {line.number(i), line.number(i + 1), line.number(i + 2)};
 }
 
 /// One scan a turn, at most ten times a second: what a replay takes these lasers for (sim::RecordedLog).
@@ -47,7 +42,7 @@ Recording read_scan_odom(const std::filesystem::path& scans, const std::optional
   }
   spin(out.scans);
   if (!odometry) return out;
-  for (sim::LineFile line(*odometry); line.next();) out.odometry.push_back({line.number(0), pose_at(line, 1)});
+  for (sim::LineFile line(*odometry); line.next();) out.odometry.push_back({line.number(0), line.pose(1)});
   return out;
 }
 
@@ -63,8 +58,8 @@ Recording read_carmen(const std::filesystem::path& file) {
     like.range_min_m = 0.05F;
     like.range_max_m = 40.0F;
     add_scan(out, line, t_s, 2, count, like);
-    out.reference.push_back({t_s, pose_at(line, behind)});
-    out.odometry.push_back({t_s, pose_at(line, behind + 3)});
+    out.reference.push_back({t_s, line.pose(behind)});
+    out.odometry.push_back({t_s, line.pose(behind + 3)});
   }
   return out;
 }
@@ -74,9 +69,8 @@ std::vector<Label> read_labels(const std::filesystem::path& file) {
   sim::LineFile line(file);
   const bool says_who_walks = line.next() && line.words().back() == "walks";
   while (line.next()) {
-    const auto id = static_cast<std::uint32_t>(line.count(1, std::numeric_limits<std::uint32_t>::max()));
     const bool walks = !says_who_walks || line.number(line.words().size() - 1) != 0.0;
-    out.push_back({line.number(0), id, {line.number(2), line.number(3)}, walks});
+    out.push_back({line.number(0), {line.number(2), line.number(3)}, walks});
   }
   return out;
 }

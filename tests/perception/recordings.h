@@ -18,7 +18,6 @@ struct StampedPose {
 
 struct Label {
   double t_s = 0.0;
-  std::uint32_t id = 0;
   Vec2 in_laser;
   bool walks = true;  ///< where the table says so in its last column
 };

@@ -28,6 +28,41 @@ MatchResult match(const Tracker& tracker, const Room& seen) {
   return match_sample(sample_of(*points), {tracker.still()}, {{}, diagonal(1e-4, 1e-4, 1e-5)});
 }
 
+constexpr Vec2 kBelow{0.0, -2.0}, kAbove{0.0, 2.0};
+
+/// Hits a hand's breadth apart on a face from (-1, y) to (1, y).
+void see_face(EvidenceMap& map, double y, Vec2 laser) {
+  for (int k = -20; k <= 20; ++k) {
+    const Vec2 p{0.05 * k, y};
+    map.add_hit(p, 10, 0.0, (laser - p) * (1.0 / distance(laser, p)));
+  }
+}
+
+/// A wall 2 m ahead of the laser, a point every 5 cm.
+MatchSample wall_ahead(double off_m) {
+  MatchSample sample;
+  for (int k = -20; k <= 20; ++k) (void)sample.push_back({2.03 + off_m, 0.05 * k});
+  return sample;
+}
+
+bool holds(const EvidenceMap& map, Vec2 p) { return map.evidence(map.cell_at(p)) > 0; }
+
+/// The points that are left at `now_s` of those on the robot's x axis, every 10 cm from 1.0 to 2.0 m. The
+/// robot stands at (3, 4) and looks along +y; a walker, seen at 5 s 1.25 m ahead, walks away from it at 1 m/s.
+std::vector<int> left_at(double now_s) {
+  const auto points = std::make_unique<ScanPoints>();
+  for (std::uint32_t k = 10; k <= 20; ++k) (void)points->push_back({{0.1 * k, 0.0}, 0.1 * k, k});
+  Track walker;
+  walker.stamp = time_from_seconds(5.0);
+  walker.position_in_map = {3.0, 5.25};
+  walker.velocity_in_map = {0.0, 1.0};
+  walker.radius_m = 0.12;
+  mask_moving_tracks(std::array{walker}, {3.0, 4.0, kPi / 2}, time_from_seconds(now_s), *points);
+  std::vector<int> left;
+  for (const ScanPoint& point : *points) left.push_back(static_cast<int>(point.beam));
+  return left;
+}
+
 }  // namespace
 
 TEST_CASE("a scan of what the map holds is matched, one of other walls is contradicted") {
@@ -62,20 +97,6 @@ TEST_CASE("a piece of wall that fifteen beams meet is enough to be matched, one 
   CHECK(enough.matched);
   CHECK_FALSE(match(*tracker, piece(0.25)).matched);
 }
-
-namespace {
-
-constexpr Vec2 kBelow{0.0, -2.0}, kAbove{0.0, 2.0};
-
-/// Hits a hand's breadth apart on a face from (-1, y) to (1, y).
-void see_face(EvidenceMap& map, double y, Vec2 laser) {
-  for (int k = -20; k <= 20; ++k) {
-    const Vec2 p{0.05 * k, y};
-    map.add_hit(p, 10, 0.0, (laser - p) * (1.0 / distance(laser, p)));
-  }
-}
-
-}  // namespace
 
 TEST_CASE("of a wall of 20 cm the face is found that looks at the robot") {
   EvidenceMap map(64, 0.1, {});
@@ -116,19 +137,6 @@ TEST_CASE("surfaces that nobody knows the side of are seen from both, and a heap
   CHECK_FALSE(line_feature_near(map, {-0.35, 1.05}, kBelow, wall));
 }
 
-namespace {
-
-/// A wall 2 m ahead of the laser, a point every 5 cm.
-MatchSample wall_ahead(double off_m) {
-  MatchSample sample;
-  for (int k = -20; k <= 20; ++k) (void)sample.push_back({2.03 + off_m, 0.05 * k});
-  return sample;
-}
-
-bool holds(const EvidenceMap& map, Vec2 p) { return map.evidence(map.cell_at(p)) > 0; }
-
-}  // namespace
-
 TEST_CASE("where two keyframes saw a wall it lies between what they saw") {
   const auto submap = std::make_unique<Submap>();
   submap->add(wall_ahead(-0.01), {});
@@ -150,26 +158,6 @@ TEST_CASE("a scan from where the last keyframe was taken is none, and of nine ke
   CHECK_FALSE(holds(submap->about({}), {2.03, 0.0}));
   CHECK(holds(submap->about({}), {2.03, 3.0}));
 }
-
-namespace {
-
-/// The points that are left at `now_s` of those on the robot's x axis, every 10 cm from 1.0 to 2.0 m. The
-/// robot stands at (3, 4) and looks along +y; a walker, seen at 5 s 1.25 m ahead, walks away from it at 1 m/s.
-std::vector<int> left_at(double now_s) {
-  const auto points = std::make_unique<ScanPoints>();
-  for (std::uint32_t k = 10; k <= 20; ++k) (void)points->push_back({{0.1 * k, 0.0}, 0.1 * k, k});
-  Track walker;
-  walker.stamp = time_from_seconds(5.0);
-  walker.position_in_map = {3.0, 5.25};
-  walker.velocity_in_map = {0.0, 1.0};
-  walker.radius_m = 0.12;
-  mask_moving_tracks(std::array{walker}, {3.0, 4.0, kPi / 2}, time_from_seconds(now_s), *points);
-  std::vector<int> left;
-  for (const ScanPoint& point : *points) left.push_back(static_cast<int>(point.beam));
-  return left;
-}
-
-}  // namespace
 
 TEST_CASE("what lies on a walker where he is by now is left out and the rest keeps its order") {
   // He is 1.45 m ahead, 0.32 m with a hand on each side: 1.2 to 1.7 m are his.

@@ -28,6 +28,36 @@ std::unique_ptr<SelfMask> after_turns(int count, float range) {
   return mask;
 }
 
+/// One body at (2, 0), known since 0 s and seen whole by point 0 of two; point 1 lies beside it, 0.3 m from its middle.
+struct Seen {
+  Seen() {
+    Target target = born_at({2.0, 0.0}, 0.02, 0.25, time_from_seconds(0.0), 7);
+    target.estimate.track.hits = 5;
+    target.appearance.whole = true;
+    target.appearance.arc_m = 0.25;
+    (void)targets.push_back(target);
+    Detection detection;
+    detection.segment = {0, 0};
+    detection.track_id = 7;
+    (void)detections.push_back(detection);
+    in_map.position[0] = {1.75, 0.0};
+    in_map.position[1] = {2.0, 0.3};
+  }
+  Target& target() { return targets[0]; }
+  std::array<Becomes, 2> at(double now_s) {
+    decide_entries(targets, detections, {in_map.position.data(), 2}, still, time_from_seconds(now_s), entries);
+    return {entries[0], entries[1]};
+  }
+
+  EvidenceMap still{64, 0.1, {}};
+  Targets targets;
+  Detections detections;
+  PointsInMap in_map;
+  Entries entries{};
+};
+
+using Pair = std::array<Becomes, 2>;
+
 }  // namespace
 
 TEST_CASE("a range that stays under five turns on the spot is the robot's own") {
@@ -91,40 +121,6 @@ TEST_CASE("what was taken off the robot is forgotten") {
   turn(*mask, 100, 116, 3.0F);  // 20 - 17 = 3
   CHECK_FALSE(mask->on_robot(0, 0.7));
 }
-
-namespace {
-
-/// One body at (2, 0), known since 0 s and seen whole by point 0 of two; point 1 lies beside it, 0.3 m from its middle.
-struct Seen {
-  Seen() {
-    Target target = born_at({2.0, 0.0}, 0.02, 0.25, time_from_seconds(0.0), 7);
-    target.estimate.track.hits = 5;
-    target.appearance.whole = true;
-    target.appearance.arc_m = 0.25;
-    (void)targets.push_back(target);
-    Detection detection;
-    detection.segment = {0, 0};
-    detection.track_id = 7;
-    (void)detections.push_back(detection);
-    in_map.position[0] = {1.75, 0.0};
-    in_map.position[1] = {2.0, 0.3};
-  }
-  Target& target() { return targets[0]; }
-  std::array<Becomes, 2> at(double now_s) {
-    decide_entries(targets, detections, {in_map.position.data(), 2}, still, time_from_seconds(now_s), entries);
-    return {entries[0], entries[1]};
-  }
-
-  EvidenceMap still{64, 0.1, {}};
-  Targets targets;
-  Detections detections;
-  PointsInMap in_map;
-  Entries entries{};
-};
-
-using Pair = std::array<Becomes, 2>;
-
-}  // namespace
 
 TEST_CASE("who may stand on unknown ground is no wall for three seconds") {
   const auto seen = std::make_unique<Seen>();

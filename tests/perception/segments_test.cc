@@ -35,15 +35,7 @@ EvidenceMap seen_free_all_over() {
 
 Cut cut_on_free(const Room& room, const Fan& fan = {}) { return cut_on(seen_free_all_over(), room, fan); }
 
-/// Hides what lies to the right of straight ahead.
-const Wall kHidesTheRight{{1.0, 0.0}, {1.0, -0.8}};
-
 }  // namespace
-
-TEST_CASE("a disc before a wall is a segment of its own") {
-  const Cut cut = cut_on_unknown({.walls = {{{4.0, -2.0}, {4.0, 2.0}}}, .discs = {{{2.0, 0.0}, 0.25}}});
-  CHECK(cut->segments.size() == 3);  // wall, disc, wall
-}
 
 TEST_CASE("two points are one thing or two whichever way the scanner turns") {
   const double step = 0.00873;
@@ -78,15 +70,12 @@ TEST_CASE("a body's centre lies behind its visible arc") {
   CHECK_FALSE(detection.leg());
 }
 
-TEST_CASE("what is wider than a body is a wall wherever it stands") {
+TEST_CASE("what is wider than 1.1 m may be a body where it is seen to end on both sides, what is far wider is a wall") {
   const Wall wall{{3.0, -0.85}, {3.0, 0.85}};
   const Cut cut = cut_on_free({.walls = {wall}});
   CHECK(cut->segments.size() == 1);
   CHECK(cut->detections.empty());
   CHECK(cut_on_free(with({}, {wall}))->detections.empty());  // seen to end on both sides
-}
-
-TEST_CASE("what is wider than 1.1 m may be a body where it is seen to end on both sides, and else is a wall") {
   const Disc wide{{3.0, 0.0}, 0.7};
   const Wall hides_a_tenth{{1.5, 0.29}, {1.5, 0.9}};
   REQUIRE(cut_on_free(with({wide}))->detections.size() == 1);
@@ -134,9 +123,16 @@ TEST_CASE("in unknown space what goes on behind nearer things on both sides is n
   CHECK(cut->near({1.5, 0.0}, 0.4) == nullptr);
 }
 
-TEST_CASE("a body half behind something nearer knows which of its sides is hidden") {
-  const Cut cut = cut_on_free({.walls = {kHidesTheRight, {{5.0, -4.0}, {5.0, 4.0}}}, .discs = {{{3.0, 0.0}, 0.27}}});
-  const Detection* const half = cut->near({3.0, 0.1}, 0.3);
+TEST_CASE("a body half behind something nearer knows which side is hidden, and which ends where nothing returns") {
+  Room room{.walls = {{{1.0, 0.0}, {1.0, -0.8}}}, .discs = {{{3.0, 0.0}, 0.27}}};  // hides what is right of ahead
+  const Cut before_nothing = cut_on_free(room);
+  const Detection* half = before_nothing->near({3.0, 0.1}, 0.3);
+  REQUIRE(half != nullptr);
+  CHECK(half->low_end == End::kHidden);
+  CHECK(half->high_end == End::kUnknown);
+  room.walls.push_back({{5.0, -4.0}, {5.0, 4.0}});
+  const Cut before_wall = cut_on_free(room);
+  half = before_wall->near({3.0, 0.1}, 0.3);
   REQUIRE(half != nullptr);
   CHECK(half->low_hidden());  // beams count from right to left
   CHECK_FALSE(half->high_hidden());
@@ -144,14 +140,6 @@ TEST_CASE("a body half behind something nearer knows which of its sides is hidde
   CHECK(half->radius_m == Approx(0.135).margin(0.02));
   CHECK(half->high_side.y > 0.99);
   CHECK(half->along.x > 0.99);
-}
-
-TEST_CASE("a side beside which beams return nothing is not seen to end") {
-  const Cut cut = cut_on_free({.walls = {kHidesTheRight}, .discs = {{{3.0, 0.0}, 0.27}}});
-  const Detection* const half = cut->near({3.0, 0.1}, 0.3);
-  REQUIRE(half != nullptr);
-  CHECK(half->low_end == End::kHidden);
-  CHECK(half->high_end == End::kUnknown);
 }
 
 TEST_CASE("what is half behind a leg is not behind more: legs take turns in hiding one another") {

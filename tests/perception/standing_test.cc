@@ -1,6 +1,3 @@
-// Whoever stands is as wide as he is, though a laser sees his shins.
-#include <memory>
-
 #include "planner/tracking/occlusion.h"
 #include "tests/perception/watch.h"
 #include "tests/support/catch.h"
@@ -33,6 +30,12 @@ EvidenceMap map_with(double beside_m) {
   return map;
 }
 
+/// The only one who stands.
+const StandingPedestrian& only_standing(const Watch& watch) {
+  REQUIRE(watch.tracker.standing().size() == 1);
+  return watch.tracker.standing()[0];
+}
+
 /// Of a laser whose beams pass over every place.
 void note(Targets targets, const EvidenceMap& still, StandingCandidates& standing) {
   const LaserScan empty = scan_of(rectangle(12.0, 10.0), {}, 1);
@@ -48,11 +51,11 @@ TEST_CASE("who stands on two legs may be a pedestrian, as wide as people, for as
   for (int scan = 0; scan < 15 * 20; ++scan) {
     watch.see(with_legs(kPlace));
     if (scan < 15) continue;
-    REQUIRE(watch.tracker.standing().size() == 1);
-    if (scan == 15) since = watch.tracker.standing()[0].since;
-    CHECK(watch.tracker.standing()[0].since == since);  // whether it is followed or in the map
-    CHECK(distance(watch.tracker.standing()[0].position_in_map, kPlace) < 0.1);
-    CHECK(watch.tracker.standing()[0].radius_m == Approx(0.25).margin(0.01));
+    const StandingPedestrian& stands = only_standing(watch);
+    if (scan == 15) since = stands.since;
+    CHECK(stands.since == since);  // whether it is followed or in the map
+    CHECK(distance(stands.position_in_map, kPlace) < 0.1);
+    CHECK(stands.radius_m == Approx(0.25).margin(0.01));
   }
   CHECK(watch.tracker.tracks().empty());  // the map has his legs by now, and no more of him
   watch.look_round();
@@ -66,8 +69,7 @@ TEST_CASE("who is hidden where he stood stands for eight seconds yet, and no lon
   Room screened = with_legs(kPlace);
   screened.walls.push_back({{1.8, 0.3}, {1.8, 1.2}});
   for (int scan = 0; scan < 15 * 15 / 2; ++scan) watch.see(screened);
-  REQUIRE(watch.tracker.standing().size() == 1);
-  CHECK(distance(watch.tracker.standing()[0].position_in_map, kPlace) < 0.1);
+  CHECK(distance(only_standing(watch).position_in_map, kPlace) < 0.1);
   SECTION("he is not seen again") {
     for (int scan = 0; scan < 15; ++scan) watch.see(screened);
     CHECK(watch.tracker.standing().empty());
@@ -91,8 +93,7 @@ TEST_CASE("who walked, stops, and goes out of what the laser looks at stands the
   const Pose2 turned{0.0, 0.0, -2.5};  // behind the robot 90 degrees are not looked at
   for (int scan = 0; scan < 15 * 7; ++scan) watch.see(still_there, turned);
   CHECK(watch.tracker.tracks().empty());
-  REQUIRE(watch.tracker.standing().size() == 1);
-  CHECK(distance(watch.tracker.standing()[0].position_in_map, {2.0, 1.0}) < 0.05);
+  CHECK(distance(only_standing(watch).position_in_map, {2.0, 1.0}) < 0.05);
   for (int scan = 0; scan < 15 * 2; ++scan) watch.see(still_there, turned);
   CHECK(watch.tracker.standing().empty());
 }
@@ -100,8 +101,7 @@ TEST_CASE("who walked, stops, and goes out of what the laser looks at stands the
 TEST_CASE("one leg that stands where nothing stood may be a pedestrian's") {
   SettledWatch watch;
   for (int scan = 0; scan < 15; ++scan) watch.see(with({{kPlace, 0.06}}));
-  REQUIRE(watch.tracker.standing().size() == 1);
-  CHECK(distance(watch.tracker.standing()[0].position_in_map, kPlace) < 0.2);
+  CHECK(distance(only_standing(watch).position_in_map, kPlace) < 0.2);
 }
 
 TEST_CASE("one post, and two farther apart than legs, are nobody") {
@@ -177,8 +177,7 @@ TEST_CASE("who walked here stands when he has stopped, no legs of his having bee
   for (int scan = 0; scan < 60; ++scan) watch.see(with({{{3.0, -2.0 + 0.05 * scan}, 0.27}}));
   CHECK(watch.tracker.standing().empty());
   for (int scan = 0; scan < 15 * 8; ++scan) watch.see(with({{{3.0, 1.0}, 0.27}}));
-  REQUIRE(watch.tracker.standing().size() == 1);
-  CHECK(distance(watch.tracker.standing()[0].position_in_map, {3.0, 1.0}) < 0.05);
+  CHECK(distance(only_standing(watch).position_in_map, {3.0, 1.0}) < 0.05);
 }
 
 TEST_CASE("who goes along beside the robot, as nobody else, may be a pedestrian") {

@@ -28,6 +28,43 @@ bool has(const Targets& targets, std::uint32_t id) {
   return std::ranges::any_of(targets, [&](const Target& target) { return target.estimate.track.id == id; });
 }
 
+Observation seen_at(double x, double std_m) {
+  Observation seen;
+  seen.position_in_map = {x, 0.0};
+  seen.std_m = std_m;
+  seen.radius_m = 0.25;
+  return seen;
+}
+
+Observation two_legs_at(double x) {
+  Observation seen = seen_at(x, 0.07);
+  seen.two_legs = true;
+  return seen;
+}
+
+/// One who walks along x at 1.2 m/s, and whose middle has been where it should be for three seconds.
+Target walker_seen_well() {
+  Target target = born_at({0.0, 0.0}, 0.07, 0.25, time_from_seconds(0.0), 1);
+  for (int k = 1; k <= 45; ++k) {
+    const Time now = time_from_seconds(k / 15.0);
+    target.estimate.filter.predict(target.estimate.track, 1.0 / 15.0);
+    update_with(target, two_legs_at(1.2 * k / 15.0), {}, now);
+  }
+  return target;
+}
+
+/// Then one leg alone is seen, which stays where it is for a third of a second: his velocity after that.
+double speed_after_a_standing_leg(bool said_to_be_one) {
+  Target target = walker_seen_well();
+  for (int k = 46; k <= 50; ++k) {
+    target.estimate.filter.predict(target.estimate.track, 1.0 / 15.0);
+    Observation seen = seen_at(3.6, 0.21);
+    seen.lone_leg = said_to_be_one;
+    update_with(target, seen, {}, time_from_seconds(k / 15.0));
+  }
+  return target.estimate.track.velocity_in_map.x;
+}
+
 }  // namespace
 
 TEST_CASE("when the list is full the farthest from the robot goes") {
@@ -80,47 +117,6 @@ TEST_CASE(
   CHECK_FALSE(is_gone(target.estimate.track, target.existence, time_from_seconds(10.9)));
   CHECK(is_gone(target.estimate.track, target.existence, time_from_seconds(11.1)));
 }
-
-namespace {
-
-Observation seen_at(double x, double std_m) {
-  Observation seen;
-  seen.position_in_map = {x, 0.0};
-  seen.std_m = std_m;
-  seen.radius_m = 0.25;
-  return seen;
-}
-
-Observation two_legs_at(double x) {
-  Observation seen = seen_at(x, 0.07);
-  seen.two_legs = true;
-  return seen;
-}
-
-/// One who walks along x at 1.2 m/s, and whose middle has been where it should be for three seconds.
-Target walker_seen_well() {
-  Target target = born_at({0.0, 0.0}, 0.07, 0.25, time_from_seconds(0.0), 1);
-  for (int k = 1; k <= 45; ++k) {
-    const Time now = time_from_seconds(k / 15.0);
-    target.estimate.filter.predict(target.estimate.track, 1.0 / 15.0);
-    update_with(target, two_legs_at(1.2 * k / 15.0), {}, now);
-  }
-  return target;
-}
-
-/// Then one leg alone is seen, which stays where it is for a third of a second: his velocity after that.
-double speed_after_a_standing_leg(bool said_to_be_one) {
-  Target target = walker_seen_well();
-  for (int k = 46; k <= 50; ++k) {
-    target.estimate.filter.predict(target.estimate.track, 1.0 / 15.0);
-    Observation seen = seen_at(3.6, 0.21);
-    seen.lone_leg = said_to_be_one;
-    update_with(target, seen, {}, time_from_seconds(k / 15.0));
-  }
-  return target.estimate.track.velocity_in_map.x;
-}
-
-}  // namespace
 
 TEST_CASE("whose middle is seen well does not stop when one leg alone is seen to stand") {
   CHECK(walker_seen_well().appearance.noise < 0.2);

@@ -24,6 +24,38 @@ struct Scored {
   }
 };
 
+/// A score after frames in which the target was not found, and one at `found_s` in which it was.
+TrackScore found_after(std::initializer_list<std::pair<double, Target>> unfound, double found_s) {
+  Scored s;
+  for (const auto& [t_s, target] : unfound) s.frame(t_s, {target}, {});
+  s.frame(found_s, {kWalks}, {track(7, 0.0)});
+  return s.score;
+}
+
+/// `metres` along +x in steps of 0.1 m; the estimate is `scale` times as far, in a frame of its own.
+std::vector<PosePair> straight(int metres, double scale, double turn_rad_per_m) {
+  std::vector<PosePair> drive;
+  const Pose2 elsewhere{3.0, -2.0, 1.0};
+  for (int k = 0; k <= 10 * metres; ++k) {
+    const double x = 0.1 * k;
+    drive.push_back({elsewhere * Pose2{scale * x, 0.0, turn_rad_per_m * x}, {x, 0.0, 0.0}});
+  }
+  return drive;
+}
+
+Track walker() {
+  Track track;
+  track.id = 3;
+  track.moving = true;
+  track.hits = 10;
+  return track;
+}
+
+void see(Track& track, double nis) {
+  track.hits += 1;
+  track.nis = nis;
+}
+
 }  // namespace
 
 TEST_CASE("of four targets one missed and one false positive leave half") {
@@ -96,35 +128,20 @@ TEST_CASE("coming into view is told soon once a stay and again after a second aw
 }
 
 TEST_CASE("the time to be found begins when a target first moves in view") {
-  Scored s;
-  s.frame(0.0, {kStands}, {});
-  s.frame(0.9, {kStands}, {});
-  s.frame(1.0, {kWalks}, {});
-  s.frame(1.5, {kWalks}, {track(7, 0.0)});  // after half a second
-  CHECK(s.score.found_soon() == 1.0);
+  const TrackScore score = found_after({{0.0, kStands}, {0.9, kStands}, {1.0, kWalks}}, 1.5);
+  CHECK(score.found_soon() == 1.0);  // after half a second
 }
 
 TEST_CASE("while a target is hidden or stands its time to be found stands still, and runs on by the clock") {
   const Target hidden{1, {}, {0.4, 0.0}, false};
   for (const Target& meanwhile : {hidden, kStands}) {
-    Scored s;
-    s.frame(0.0, {kWalks}, {});
-    s.frame(0.3, {kWalks}, {});
-    s.frame(0.6, {meanwhile}, {});
-    s.frame(0.9, {meanwhile}, {});
-    s.frame(1.0, {kWalks}, {});
-    s.frame(1.2, {kWalks}, {track(7, 0.0)});  // 0.5 s or 0.6 s of moving in view
-    CHECK(s.score.found_soon() == 1.0);
-    CHECK(s.score.found_soon_by_clock() == 0.0);
+    const TrackScore score =
+        found_after({{0.0, kWalks}, {0.3, kWalks}, {0.6, meanwhile}, {0.9, meanwhile}, {1.0, kWalks}}, 1.2);
+    CHECK(score.found_soon() == 1.0);  // 0.5 s or 0.6 s of moving in view
+    CHECK(score.found_soon_by_clock() == 0.0);
   }
-  Scored late;
-  late.frame(0.0, {kWalks}, {});
-  late.frame(0.3, {kWalks}, {});
-  late.frame(0.5, {hidden}, {});
-  late.frame(0.9, {kWalks}, {});
-  late.frame(1.3, {kWalks}, {});  // 0.7 s of moving in view
-  late.frame(1.4, {kWalks}, {track(7, 0.0)});
-  CHECK(late.score.found_soon() == 0.0);
+  const TrackScore late = found_after({{0.0, kWalks}, {0.3, kWalks}, {0.5, hidden}, {0.9, kWalks}, {1.3, kWalks}}, 1.4);
+  CHECK(late.found_soon() == 0.0);  // 0.7 s of moving in view
 }
 
 TEST_CASE("where each is to be taken as it is a standing track finds only who stands") {
@@ -160,39 +177,18 @@ TEST_CASE("a target that turned less than a second ago is not steady") {
   CHECK(std::isnan(s.score.covered()));
 }
 
-namespace {
-
-/// `metres` along +x in steps of 0.1 m; the estimate is `scale` times as far, in a frame of its own.
-std::vector<PosePair> straight(int metres, double scale, double turn_rad_per_m) {
-  std::vector<PosePair> drive;
-  const Pose2 elsewhere{3.0, -2.0, 1.0};
-  for (int k = 0; k <= 10 * metres; ++k) {
-    const double x = 0.1 * k;
-    drive.push_back({elsewhere * Pose2{scale * x, 0.0, turn_rad_per_m * x}, {x, 0.0, 0.0}});
-  }
-  return drive;
-}
-
-}  // namespace
-
-TEST_CASE("wheels one percent too large are one percent wrong wherever the frames lie") {
+TEST_CASE("wheels one percent too large are one percent wrong, a drift of a milliradian a metre 0.573 degrees in ten") {
   const RelativeError error = relative_error(straight(12, 1.01, 0.0), 10.0, 1.0);
   CHECK(error.stretches == 3);  // from 0, 1 and 2 m
   CHECK(error.translation_percent == Approx(1.0).epsilon(1e-3));
   CHECK(error.heading_deg == Approx(0.0).margin(1e-9));
-}
-
-TEST_CASE("a heading that drifts by a milliradian a metre is 0.573 degrees off after ten") {
   CHECK(relative_error(straight(11, 1.0, 0.001), 10.0, 1.0).heading_deg == Approx(0.573).epsilon(1e-2));
 }
 
-TEST_CASE("a drive shorter than the stretch tells nothing") {
+TEST_CASE("a drive shorter than the stretch tells nothing, and standing noise is no way") {
   const RelativeError error = relative_error(straight(9, 1.0, 0.0), 10.0, 1.0);
   CHECK(error.stretches == 0);
   CHECK(std::isnan(error.translation_percent));
-}
-
-TEST_CASE("standing noise is no way") {
   std::vector<PosePair> drive(1000);
   for (std::size_t k = 0; k < drive.size(); ++k) drive[k].truth.x = k % 2 == 0 ? 0.0 : 0.04;
   CHECK(relative_error(drive, 10.0, 1.0).stretches == 0);
@@ -205,23 +201,6 @@ TEST_CASE("the greatest step error is that of the worst step, seen from where th
   CHECK(greatest_step_error(drive).translation_m == Approx(0.2));
   CHECK(greatest_step_error(drive).heading_deg == Approx(5.7296));
 }
-
-namespace {
-
-Track walker() {
-  Track track;
-  track.id = 3;
-  track.moving = true;
-  track.hits = 10;
-  return track;
-}
-
-void see(Track& track, double nis) {
-  track.hits += 1;
-  track.nis = nis;
-}
-
-}  // namespace
 
 TEST_CASE("surprises of a track that moves are counted, averaged and held against their 95 percent bound") {
   Track track = walker();

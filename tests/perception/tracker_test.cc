@@ -23,23 +23,21 @@ int scans_until_seen_to_move(Watch& watch, const Disc& disc, Vec2 velocity) {
   return scans;
 }
 
-}  // namespace
-
-TEST_CASE("an empty room is walls and free space and nothing moves") {
-  SettledWatch watch;
-  const EvidenceMap& still = watch.tracker.still();
-  CHECK(still.occupied(still.cell_at({5.99, 1.0})));
-  CHECK(still.seen_free(still.cell_at({3.0, 1.0})));
-  CHECK(still.evidence(still.cell_at({7.0, 1.0})) == 0);
-  CHECK(watch.most_moving == 0);
-  CHECK(watch.tracker.tracks().empty());
+/// Two shins of somebody who walks across, `way_m` after he set out from `from`, at 0.8 m/s: steps of 0.56 m, of which
+/// shins do two thirds to and fro (hal/sim/world.h).
+Room with_walker(Vec2 from, double way_m) {
+  const double steps = way_m / 0.56, of_two = steps - 2.0 * std::floor(0.5 * steps);
+  const double ahead = 0.187 * (of_two < 1.0 ? 1.0 - 2.0 * of_two : 2.0 * of_two - 3.0);
+  const Vec2 left{from.x + 0.1, from.y + way_m + ahead}, right{from.x - 0.1, from.y + way_m - ahead};
+  return rectangle(20.0, 20.0, {{left, 0.06}, {right, 0.06}});
 }
+
+}  // namespace
 
 TEST_CASE("a walking disc is tracked with its place, velocity and size and leaves no trail") {
   SettledWatch watch;
   for (int k = 0; k < 60; ++k) watch.see(with({{{2.0, -2.0 + 0.06 * k}, 0.27}}));  // 0.9 m/s to the left
-  REQUIRE(watch.tracker.moving().size() == 1);
-  const Track& track = watch.tracker.moving()[0];
+  const Track& track = only_mover(watch.tracker);
   CHECK(distance(track.position_in_map, {2.0, 1.54}) < 0.12);
   CHECK(distance(track.velocity_in_map, {0.0, 0.9}) < 0.15);
   CHECK(track.radius_m == Approx(0.27).margin(0.06));
@@ -47,15 +45,11 @@ TEST_CASE("a walking disc is tracked with its place, velocity and size and leave
   CHECK(occupied_cells(watch.tracker.still(), {15, -35}, {25, 30}) == 0);
 }
 
-TEST_CASE("a walker is called moving within a second of setting out") {
-  SettledWatch watch;
-  CHECK(scans_until_seen_to_move(watch, {{3.0, -1.0}, 0.25}, {-0.75, 0.0}) <= 15);  // towards the robot
-}
-
-TEST_CASE("a trolley of 1.4 m is known for a walker within 0.6 s of setting out, and for as wide as it is") {
-  SettledWatch watch;
-  CHECK(scans_until_seen_to_move(watch, {{3.0, -1.0}, 0.7}, {0.0, 0.5}) <= 9);
-  CHECK(watch.tracker.moving()[0].radius_m == Approx(0.7).margin(0.06));
+TEST_CASE("who comes straight on is known to move within a second, a trolley of 1.4 m within 0.6 s and its width") {
+  SettledWatch comes, trolley;
+  CHECK(scans_until_seen_to_move(comes, {{3.0, -1.0}, 0.25}, {-0.75, 0.0}) <= 15);
+  CHECK(scans_until_seen_to_move(trolley, {{3.0, -1.0}, 0.7}, {0.0, 0.5}) <= 9);
+  CHECK(only_mover(trolley.tracker).radius_m == Approx(0.7).margin(0.06));
 }
 
 TEST_CASE("a slow walker who was there from the first scan on is no wall that walks along") {
@@ -65,24 +59,18 @@ TEST_CASE("a slow walker who was there from the first scan on is no wall that wa
 }
 
 TEST_CASE("who stood when first seen is still the same one when he sets out, be he a wall by then or not") {
-  struct Stood {
-    int scans;
-    bool is_wall;
-    int seen_to_move_within;
-  };
-  for (const Stood& he : {Stood{40, false, 12}, Stood{300, true, 9}}) {  // 2.7 s and 20 s, 0.8 s and 0.6 s
-    CAPTURE(he.scans);
-    Watch watch;
-    for (int k = 0; k < he.scans; ++k) watch.see(with({{{3.0, -1.0}, 0.27}}));
-    REQUIRE(watch.tracker.tracks().size() == 1);
-    const std::uint32_t name = watch.tracker.tracks()[0].id;
-    const EvidenceMap& still = watch.tracker.still();
-    const CellIndex his_side = still.cell_at({2.73, -1.0});
-    CHECK((he.is_wall ? still.stands(his_side) : still.occupied(his_side)));  // he is an obstacle all the same
-    CHECK(scans_until_seen_to_move(watch, {{3.0, -1.0}, 0.27}, {0.0, 0.4}) <= he.seen_to_move_within);
-    REQUIRE(watch.tracker.moving().size() == 1);
-    CHECK(watch.tracker.moving()[0].id == name);
-  }
+  const auto [scans, is_wall, seen_to_move_within] =
+      GENERATE(table<int, bool, int>({{40, false, 12}, {300, true, 9}}));  // 2.7 s and 20 s, 0.8 s and 0.6 s
+  CAPTURE(scans);
+  Watch watch;
+  for (int k = 0; k < scans; ++k) watch.see(with({{{3.0, -1.0}, 0.27}}));
+  REQUIRE(watch.tracker.tracks().size() == 1);
+  const std::uint32_t name = watch.tracker.tracks()[0].id;
+  const EvidenceMap& still = watch.tracker.still();
+  const CellIndex his_side = still.cell_at({2.73, -1.0});
+  CHECK((is_wall ? still.stands(his_side) : still.occupied(his_side)));  // he is an obstacle all the same
+  CHECK(scans_until_seen_to_move(watch, {{3.0, -1.0}, 0.27}, {0.0, 0.4}) <= seen_to_move_within);
+  CHECK(only_mover(watch.tracker).id == name);
 }
 
 TEST_CASE("who walks past where a scanner that looks all round begins its turn is one and the same") {
@@ -95,8 +83,7 @@ TEST_CASE("who walks past where a scanner that looks all round begins its turn i
       const double y = -1.5 + 0.05 * k;  // 0.75 m/s from right to left, straight ahead halfway
       watch.see(with({{{2.0, y}, 0.27}}));
       if (k < 15) continue;
-      REQUIRE(watch.tracker.moving().size() == 1);
-      const Track& track = watch.tracker.moving()[0];
+      const Track& track = only_mover(watch.tracker);
       name = name == 0 ? track.id : name;
       CHECK(track.id == name);
       CHECK(distance(track.position_in_map, {2.0, y}) < 0.1);
@@ -141,13 +128,12 @@ TEST_CASE("a clock set back by less than a second loses nobody") {
       watch.tracker.update(scan, {});
     };
     for (int k = 0; k < 25; ++k) see(k, 2.0 + k / 15.0);
-    REQUIRE(watch.tracker.moving().size() == 1);
-    const std::uint32_t name = watch.tracker.moving()[0].id;
+    const std::uint32_t name = only_mover(watch.tracker).id;
     for (int k = 25; k < 45; ++k) {
       see(k, 2.0 + k / 15.0 - back_s);
-      REQUIRE(watch.tracker.moving().size() == 1);
-      CHECK(watch.tracker.moving()[0].id == name);
-      CHECK(distance(watch.tracker.moving()[0].position_in_map, {3.0, -2.0 + 0.08 * k}) < 0.15);
+      const Track& track = only_mover(watch.tracker);
+      CHECK(track.id == name);
+      CHECK(distance(track.position_in_map, {3.0, -2.0 + 0.08 * k}) < 0.15);
     }
     CHECK(norm(watch.tracker.moving()[0].velocity_in_map - Vec2{0.0, 1.2}) < 0.2);
   }
@@ -159,10 +145,8 @@ TEST_CASE("two that cross keep their names") {
   const auto far_at = [](int k) { return Vec2{3.2, 2.0 - 0.05 * k}; };
   std::uint32_t near_id = 0, far_id = 0;
   const auto id_at = [&](Vec2 p) {
-    for (const Track& t : watch.tracker.moving()) {
-      if (distance(t.position_in_map, p) < 0.3) return t.id;
-    }
-    return 0U;
+    const Track* const track = track_near(watch.tracker.moving(), p, 0.3);
+    return track == nullptr ? 0U : track->id;
   };
   for (int k = 0; k < 80; ++k) {
     watch.see(with({{near_at(k), 0.25}, {far_at(k), 0.25}}));
@@ -200,19 +184,6 @@ TEST_CASE("a pose that is not finite is refused") {
   watch.tracker.update(scan_of(rectangle(12.0, 10.0), {}, ++watch.scan), {nan, 0.0, 0.0});
   CHECK(watch.tracker.tracks().empty());
 }
-
-namespace {
-
-/// Two shins of somebody who walks across, `way_m` after he set out from `from`, at 0.8 m/s: steps of 0.56 m, of which
-/// shins do two thirds to and fro (hal/sim/world.h).
-Room with_walker(Vec2 from, double way_m) {
-  const double steps = way_m / 0.56, of_two = steps - 2.0 * std::floor(0.5 * steps);
-  const double ahead = 0.187 * (of_two < 1.0 ? 1.0 - 2.0 * of_two : 2.0 * of_two - 3.0);
-  const Vec2 left{from.x + 0.1, from.y + way_m + ahead}, right{from.x - 0.1, from.y + way_m - ahead};
-  return rectangle(20.0, 20.0, {{left, 0.06}, {right, 0.06}});
-}
-
-}  // namespace
 
 TEST_CASE("somebody on two legs is known within two seconds, far off as well, and is one") {
   const double range_m = GENERATE(3.0, 6.0, 8.5);

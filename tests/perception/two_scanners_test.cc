@@ -4,8 +4,7 @@
 
 #include "planner/localization/localizer.h"
 #include "planner/scan/scan_points.h"
-#include "planner/tracking/tracker.h"
-#include "tests/perception/room.h"
+#include "tests/perception/watch.h"
 #include "tests/support/catch.h"
 
 using namespace jaywalk;
@@ -57,10 +56,7 @@ TEST_CASE("a walker who passes from one scanner's view into the other's stays th
     eyes.see(k % 2U, 2.0 + t_s, with_disc(passing(t_s)));
     if (t_s < 1.0) continue;
     for (const Track& track : eyes.tracker.moving()) ids.insert(track.id);
-    const bool here = std::any_of(eyes.tracker.moving().begin(), eyes.tracker.moving().end(), [&](const Track& track) {
-      return distance(track.position_in_map, passing(t_s)) < 0.2;
-    });
-    lost += here ? 0 : 1;
+    lost += track_near(eyes.tracker.moving(), passing(t_s), 0.2) == nullptr ? 1 : 0;
   }
   CHECK(ids.size() == 1);
   CHECK(lost == 0);
@@ -83,8 +79,7 @@ TEST_CASE("a scan that does not look at a walker says nothing of him: he is foll
   REQUIRE(first_alone > 0);
   CHECK(first_with_rear >= 0);
   CHECK(first_with_rear <= first_alone + 2);
-  REQUIRE(with_rear.tracker.moving().size() == 1);
-  CHECK(with_rear.tracker.moving()[0].velocity_in_map.y == Approx(1.2).margin(0.15));
+  CHECK(only_mover(with_rear.tracker).velocity_in_map.y == Approx(1.2).margin(0.15));
 }
 
 TEST_CASE("walls on all sides are mapped from where each scanner is") {
@@ -107,8 +102,7 @@ TEST_CASE("a slow sweep that comes after a later one is taken at its own time") 
     eyes.see(1, 2.0 + t_s, with_disc(place(t_s)));
     eyes.see(0, 2.0 + t_s - 0.06, with_disc(place(t_s - 0.06)));
     if (k < 15) continue;
-    REQUIRE(eyes.tracker.moving().size() == 1);
-    const Track& track = eyes.tracker.moving()[0];
+    const Track& track = only_mover(eyes.tracker);
     CHECK(track.stamp == time_from_seconds(2.0 + t_s));
     CHECK(distance(track.position_in_map, place(t_s)) < 0.08);
     CHECK(track.velocity_in_map.x == Approx(1.2).margin(0.15));

@@ -4,6 +4,16 @@
 
 namespace jaywalk::test {
 
+using Sample = PositionHistory::Sample;
+
+/// Samples `first` to `last` of a history, `step_s` apart.
+template <class SampleAt>
+PositionHistory history(int first, int last, const SampleAt& sample_at, double step_s = 0.1) {
+  PositionHistory positions;
+  for (int k = first; k <= last; ++k) positions.add(time_from_seconds(step_s * k), sample_at(k));
+  return positions;
+}
+
 /// One who came from `from` to `to` in a second, seen ten times, 0.2 m wide, on ground that was free before.
 inline Target walker(Vec2 from, Vec2 to) {
   Target target = born_at(from, 0.05, 0.1, time_from_seconds(0.0), 1);

@@ -2,9 +2,11 @@
 // A tracker that looks at a room of 12 m x 10 m, scan after scan of a 15 Hz laser.
 #include <algorithm>
 #include <limits>
+#include <span>
 
 #include "planner/tracking/tracker.h"
 #include "tests/perception/room.h"
+#include "tests/support/catch.h"
 
 namespace jaywalk::test {
 
@@ -39,6 +41,19 @@ struct Watch {
 struct SettledWatch : Watch {
   SettledWatch() { look_round(); }
 };
+
+/// The one track that moves.
+inline const Track& only_mover(const Tracker& tracker) {
+  REQUIRE(tracker.moving().size() == 1);
+  return tracker.moving()[0];
+}
+
+/// The first of these tracks within `within_m` of a place, or none.
+inline const Track* track_near(std::span<const Track> tracks, Vec2 place, double within_m) {
+  const auto it = std::ranges::find_if(
+      tracks, [&](const Track& track) { return distance(track.position_in_map, place) < within_m; });
+  return it == tracks.end() ? nullptr : &*it;
+}
 
 /// Of the cells from `low` up to but not `beyond`.
 inline int occupied_cells(const EvidenceMap& map, CellIndex low, CellIndex beyond) {

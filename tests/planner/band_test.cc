@@ -63,12 +63,12 @@ class Ways {
   /// The three shapes of a way from somewhere to somewhere; false where there is none.
   bool draw(std::array<Shape, 3>& shapes) {
     const paper::FieldArrays& a = rig_.arrays();
-    const std::int32_t start = free_[static_cast<std::size_t>(random_.below(static_cast<std::int32_t>(free_.size())))];
+    const std::int32_t start = any_free();
     if (!cell::is_joined(rig_.psi()[start])) return false;
-    const std::int32_t count = paper::follow(rig_.grid, a.index, start, goal_, points_, 0);
+    const std::int32_t count = paper::follow(rig_.grid, a.index, start, rig_.goal, points_, 0);
     if (count < 3) return false;
     points_[0] = within(start);
-    points_[static_cast<std::size_t>(count - 1)] = within(goal_);
+    points_[static_cast<std::size_t>(count - 1)] = within(rig_.goal);
     const std::span<paper::Point> band_points(points_.data(), static_cast<std::size_t>(count));
     const Line raw = line_of(band_points);
     paper::pull(rig_.grid, a.clearance, band_points, raw_, 1);
@@ -97,12 +97,14 @@ class Ways {
       if (rig_.arrays().clearance[c] > 0.0F) free_.push_back(c);
     }
     if (free_.empty()) return false;
-    goal_ = free_[static_cast<std::size_t>(random_.below(static_cast<std::int32_t>(free_.size())))];
-    rig_.load(map, kInflations[seed % 4], goal_);
-    return rig_.pass.solve(rig_.grid, goal_, paper::From::kNothing).certified;
+    rig_.load(map, kInflations[seed % 4], any_free());
+    return rig_.solve().certified;
   }
 
  private:
+  std::int32_t any_free() {
+    return free_[static_cast<std::size_t>(random_.below(static_cast<std::int32_t>(free_.size())))];
+  }
   paper::Point within(std::int32_t c) {
     const auto i = static_cast<double>(c % kSide), j = static_cast<double>(c / kSide);
     const double x = random_.unit(), y = random_.unit();
@@ -114,7 +116,6 @@ class Ways {
   std::vector<paper::Point> raw_ = points_;
   Random random_{1};
   std::vector<std::int32_t> free_;
-  std::int32_t goal_ = 0;
   std::unique_ptr<Path> path_ = std::make_unique<Path>();
 };
 
@@ -146,12 +147,11 @@ TEST_CASE(
 
 TEST_CASE("the band shortens the raw path, turns less, and never leaves free cells") {
   FieldRig<> rig(256);
-  const std::int32_t goal = rig.grid.at(240, 240), start = rig.grid.at(10, 12);
-  rig.load(clutter(11), 3.0F, goal);
-  REQUIRE(rig.pass.solve(rig.grid, goal, paper::From::kNothing).certified);
+  rig.load(clutter(11), 3.0F, rig.grid.at(240, 240));
+  REQUIRE(rig.solve().certified);
   const paper::FieldArrays& a = rig.arrays();
   std::vector<paper::Point> points(static_cast<std::size_t>(paper::kMaxBandPoints));
-  const std::int32_t count = paper::follow(rig.grid, a.index, start, goal, points, 0);
+  const std::int32_t count = paper::follow(rig.grid, a.index, rig.grid.at(10, 12), rig.goal, points, 0);
   REQUIRE(count > 200);
   points.resize(static_cast<std::size_t>(count));
   const Line raw = line_of(points);

@@ -3,7 +3,6 @@
 
 #include <cmath>
 
-#include "planner/cell/exp_log.h"
 #include "planner/cell/kalman.h"
 #include "planner/paper/mark_stages.h"
 #include "planner/paper/path.h"

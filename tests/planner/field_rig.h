@@ -15,6 +15,7 @@ struct FieldRig {
   Executor executor;
   paper::Pass<Executor> pass;
   paper::Grid grid;
+  std::int32_t goal = 0;
 
   explicit FieldRig(std::int32_t side) : pass(executor, side), grid{side} {}
 
@@ -22,23 +23,22 @@ struct FieldRig {
   [[nodiscard]] float* psi() const { return arrays().psi; }
 
   /// Occupants, clearance with `inflation` cells, start field.
-  void load(const TestMap& map, float inflation, std::int32_t goal) {
+  void load(const TestMap& map, float inflation, std::int32_t to) {
+    goal = to;
     for (std::size_t c = 0; c < map.wall.size(); ++c) arrays().occupants[c] = map.wall[c];
     (void)pass.clear(grid, inflation, paper::kWall);
     (void)pass.start(grid, goal);
   }
 
-  /// Solves so many times: from nothing, and then from the last.
-  paper::FieldQuality solve(std::int32_t goal, int times = 1) {
-    paper::FieldQuality quality = pass.solve(grid, goal, paper::From::kNothing);
-    for (int k = 1; k < times; ++k) quality = pass.solve(grid, goal, paper::From::kLast);
-    return quality;
+  paper::FieldQuality solve(paper::From from = paper::From::kNothing) { return pass.solve(grid, goal, from); }
+  /// From nothing, and then three times from the last.
+  void solve_fully() {
+    (void)solve();
+    for (int k = 0; k < 3; ++k) (void)solve(paper::From::kLast);
   }
-  [[nodiscard]] double share_of_best(std::int32_t goal) const {
-    return paper::share_of_best(grid, psi(), exact(goal), goal);
-  }
+  [[nodiscard]] double share_of_best() const { return paper::share_of_best(grid, psi(), exact(), goal); }
   /// The exact field of the free cells.
-  [[nodiscard]] std::vector<double> exact(std::int32_t goal) const {
+  [[nodiscard]] std::vector<double> exact() const {
     std::vector<std::uint8_t> free(static_cast<std::size_t>(grid.cells()));
     for (std::size_t c = 0; c < free.size(); ++c) free[c] = arrays().clearance[c] > 0.0F ? 1 : 0;
     return paper::exact_psi(grid, free.data(), goal);

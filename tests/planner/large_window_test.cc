@@ -34,7 +34,7 @@ TEST_CASE("in large windows two cycles guide from everywhere, and the next submi
     field->inflate(2.0F);
     CellIndex goal{kSide / 2, kSide / 2};
     REQUIRE(field->nearest_free(goal, kSide));
-    const paper::MapQuality cold = field->solve_cold(goal);
+    const paper::FieldQuality cold = field->solve_cold(goal);
     CHECK(cold.certified);
     CHECK(cold.cycles == 2);
     CHECK(cold.joined > 100000);

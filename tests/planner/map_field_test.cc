@@ -5,11 +5,9 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
-#include <string>
 
-#include "planner/paper/map_field_on.h"
+#include "hal/maps/wall_map.h"
+#include "planner/paper/paper_planner.h"
 #include "tests/planner/field_rig.h"
 #include "tests/planner/shaped_maps.h"
 #include "tests/planner/shuffled_executor.h"
@@ -38,18 +36,14 @@ paper::CellMap random_map(Random& random, std::int32_t most) {
   return map;
 }
 
-/// Cells of 5 cm that a cylinder (x y radius a line) covers with their middle.
+/// Cells of 5 cm that a cylinder covers with their middle.
 paper::CellMap barn_map(const std::filesystem::path& file) {
   constexpr double kCell = 0.05;
   paper::CellMap map = filled_map(110, 220);
-  std::ifstream in(file);
-  for (std::string line; std::getline(in, line);) {
-    std::istringstream words(line);
-    double x = 0.0, y = 0.0, r = 0.0;
-    if (!(words >> x >> y >> r)) continue;
+  for (const auto& cylinder : sim::load_cylinder_map(file).discs) {
     for (std::int32_t c = 0; c < 110 * 220; ++c) {
-      const double dx = (c % 110 - 105) * kCell - x, dy = (c / 110 - 5) * kCell - y;
-      if (dx * dx + dy * dy <= r * r) map.wall[static_cast<std::size_t>(c)] = 1;
+      const Vec2 off = Vec2{(c % 110 - 105) * kCell, (c / 110 - 5) * kCell} - cylinder.centre;
+      if (dot(off, off) <= cylinder.radius_m * cylinder.radius_m) map.wall[static_cast<std::size_t>(c)] = 1;
     }
   }
   return map;
@@ -65,7 +59,7 @@ TEST_CASE("on a thousand random maps of random size descent arrives from every j
     field->inflate(static_cast<float>(random.below(3)));
     CellIndex goal{random.below(60), random.below(60)};
     if (!field->nearest_free(goal, 100)) continue;
-    const paper::MapQuality cold = field->solve_cold(goal);
+    const paper::FieldQuality cold = field->solve_cold(goal);
     CHECK(cold.certified);
     CHECK(field->reach(goal) == 1.0F);
     CHECK(field->solve_warm(goal).certified);
@@ -79,7 +73,7 @@ TEST_CASE("the start field alone is a mode: it descends from everywhere, and is 
   const TestMap map = office();
   const auto field = paper::make_cpu_map_field({map.side, map.side, map.wall});
   field->inflate(3.0F);
-  const paper::MapQuality start = field->solve_start({243, 243});
+  const paper::FieldQuality start = field->solve_start({243, 243});
   CHECK(start.certified);
   CHECK(start.cycles == 0);
   CHECK(field->best_neighbours({243, 243}, 1e10).value() < 0.96);
@@ -100,7 +94,7 @@ TEST_CASE("maps of every shape have the same bytes in any visiting order") {
 TEST_CASE("a single cell, a row and a column of cells are solved, and a map of walls has no goal") {
   for (const CellIndex size : {CellIndex{1, 1}, CellIndex{1, 65}, CellIndex{130, 1}}) {
     const auto field = paper::make_cpu_map_field(filled_map(size.i, size.j));
-    const paper::MapQuality quality = field->solve_cold({0, 0});
+    const paper::FieldQuality quality = field->solve_cold({0, 0});
     CHECK(quality.certified);
     CHECK(quality.joined == size.i * size.j);
     CHECK(field->psi(0, 0) == 0.0F);
@@ -135,7 +129,6 @@ TEST_CASE("in 120 ticks with eight discs that open and close passages fields are
     map.box(i, 0, i + 2, 256);
     for (const std::int32_t j : {40, 120, 200}) map.box(i, j, i + 2, j + 16, 0);
   }
-  const std::int32_t goal = rig.grid.at(230, 128);
   const int measured_every = std::getenv("JAYWALK_EVERY_TICK") != nullptr ? 1 : 7;
   double worst = 1.0;
   for (int tick = 0; tick < 120; ++tick) {
@@ -149,13 +142,12 @@ TEST_CASE("in 120 ticks with eight discs that open and close passages fields are
         }
       }
     }
-    rig.load(now, 3.0F, goal);
-    const paper::FieldQuality quality =
-        rig.pass.solve(rig.grid, goal, tick > 0 ? paper::From::kLast : paper::From::kNothing);
+    rig.load(now, 3.0F, rig.grid.at(230, 128));
+    const paper::FieldQuality quality = rig.solve(tick > 0 ? paper::From::kLast : paper::From::kNothing);
     CHECK(quality.certified);
     CHECK(quality.joined > 8000);
     if (tick % measured_every != 0) continue;  // the exact field takes a second
-    worst = std::min(worst, rig.share_of_best(goal));
+    worst = std::min(worst, rig.share_of_best());
   }
   std::printf("120 ticks: %.3f %% pick the best neighbour, at worst\n", 100.0 * worst);
   CHECK(worst >= 0.98);

@@ -49,7 +49,5 @@ TEST_CASE("a mover is marked where the warp puts it, and not where it is") {
 TEST_CASE("movers outside the grid mark what reaches in and nothing else") {
   MarkRig rig;
   rig.run(mover_at(-20.0F, -20.0F, 0.0F, 0.0F, 0.0F));
-  int count = 0;
-  for (const std::uint8_t o : rig.occupants) count += o;
-  CHECK(count == 0);
+  CHECK(rig.occupants == std::vector<std::uint8_t>(64 * 64));
 }

@@ -13,12 +13,6 @@ namespace {
 
 constexpr std::uint32_t kSignalling = 0x7fa00001;
 
-std::uint32_t bits_of(const float* value) {
-  std::uint32_t bits = 0;
-  std::memcpy(&bits, value, sizeof bits);
-  return bits;
-}
-
 /// Visits one cell after the other. Of this file alone, so that the stages are compiled as the build says for this
 /// file.
 class Visitor : public paper::SerialExecutor {
@@ -39,7 +33,7 @@ class Visitor : public paper::SerialExecutor {
 int computed(const FieldRig<Visitor>& rig, const float* psi) {
   int count = 0;
   for (std::int32_t c = 0; c < rig.grid.cells(); ++c) {
-    count += rig.arrays().clearance[c] <= 0.0F && bits_of(psi + c) != kSignalling ? 1 : 0;
+    count += rig.arrays().clearance[c] <= 0.0F && std::memcmp(psi + c, &kSignalling, sizeof kSignalling) != 0 ? 1 : 0;
   }
   return count;
 }
@@ -48,13 +42,12 @@ int computed(const FieldRig<Visitor>& rig, const float* psi) {
 
 TEST_CASE("psi of a cell that is not free is handed on and never computed, cold, warm and by the start field alone") {
   FieldRig<Visitor> rig(64);
-  const std::int32_t goal = rig.grid.at(55, 50);
-  rig.load(rooms(), 1.0F, goal);
+  rig.load(rooms(), 1.0F, rig.grid.at(55, 50));
   for (std::int32_t c = 0; c < rig.grid.cells(); ++c) {
     if (rig.arrays().clearance[c] <= 0.0F) std::memcpy(rig.arrays().start_psi + c, &kSignalling, sizeof kSignalling);
   }
   for (const paper::From from : {paper::From::kNothing, paper::From::kLast, paper::From::kStartOnly}) {
-    const paper::FieldQuality quality = rig.pass.solve(rig.grid, goal, from);
+    const paper::FieldQuality quality = rig.solve(from);
     CHECK(quality.certified);
     CHECK(quality.joined > 2000);
     CHECK(computed(rig, rig.arrays().start_psi) == 0);

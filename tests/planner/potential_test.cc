@@ -41,11 +41,10 @@ std::vector<double> harmonic_reference(const paper::Grid& grid, const float* cle
 
 TEST_CASE("the solved potential is the harmonic function to a thousandth, the exact field to the last digits") {
   FieldRig<> rig(64);
-  const std::int32_t goal = rig.grid.at(55, 50);
-  rig.load(rooms(), 1.0F, goal);
-  (void)rig.solve(goal, 4);
-  const std::vector<double> exact = rig.exact(goal);
-  const std::vector<double> swept = harmonic_reference(rig.grid, rig.arrays().clearance, goal);
+  rig.load(rooms(), 1.0F, rig.grid.at(55, 50));
+  rig.solve_fully();
+  const std::vector<double> exact = rig.exact();
+  const std::vector<double> swept = harmonic_reference(rig.grid, rig.arrays().clearance, rig.goal);
   int joined = 0;
   for (std::int32_t c = 0; c < rig.grid.cells(); ++c) {
     const auto k = static_cast<std::size_t>(c);
@@ -69,14 +68,13 @@ TEST_CASE("certified means that descent arrives from every joined cell, on every
   FieldRig<> rig(256);
   std::vector<std::uint8_t> seen(256 * 256);
   for (const TestMap& map : {open_room(), office(), serpentine(15), serpentine(10), clutter(4), speckle(4)}) {
-    const std::int32_t goal = map.name[1] == 'e' ? rig.grid.at(12, 6) : rig.grid.at(12, 12);
-    rig.load(map, 3.0F, goal);
-    const paper::FieldQuality cold = rig.solve(goal);
+    rig.load(map, 3.0F, rig.grid.at(12, map.name[1] == 'e' ? 6 : 12));
+    const paper::FieldQuality cold = rig.solve();
     CHECK(cold.certified);
     CHECK(cold.cycles >= paper::cold_cycles(rig.grid).least);
     CHECK(cold.cycles <= paper::cold_cycles(rig.grid).most);
-    CHECK(paper::share_arriving(rig.grid, rig.psi(), rig.arrays().index, goal, seen.data()) == 1.0F);
-    const paper::FieldQuality warm = rig.pass.solve(rig.grid, goal, paper::From::kLast);
+    CHECK(paper::share_arriving(rig.grid, rig.psi(), rig.arrays().index, rig.goal, seen.data()) == 1.0F);
+    const paper::FieldQuality warm = rig.solve(paper::From::kLast);
     CHECK(warm.certified);
     CHECK(warm.cycles <= paper::kWarmCycles.most);
   }
@@ -85,10 +83,9 @@ TEST_CASE("certified means that descent arrives from every joined cell, on every
 TEST_CASE("solved cold, 99.9 percent of cells or more pick the exact field's best neighbour, in corridors too") {
   FieldRig<> rig(256);
   for (const TestMap& map : {open_room(), office(), clutter(1), speckle(1), serpentine(15), serpentine(10)}) {
-    const std::int32_t goal = map.name[1] == 'e' ? rig.grid.at(12, 6) : rig.grid.at(243, 243);
-    rig.load(map, 3.0F, goal);
-    REQUIRE(rig.solve(goal).certified);
-    const double best = rig.share_of_best(goal);
+    rig.load(map, 3.0F, map.name[1] == 'e' ? rig.grid.at(12, 6) : rig.grid.at(243, 243));
+    REQUIRE(rig.solve().certified);
+    const double best = rig.share_of_best();
     std::printf("%s: %.3f %% pick the best neighbour\n", map.name.c_str(), 100.0 * best);
     CHECK(best >= 0.999);
   }
@@ -104,13 +101,12 @@ TEST_CASE("in caves with ragged passages 99.9 percent or more pick the best neig
     const std::int32_t i = random.below(256), j = random.below(256);
     rig.load(map, inflation, 0);
     const float* clearance = rig.arrays().clearance;
-    const std::int32_t goal =
-        field::nearest_cell(rig.grid, i, j, 256, [&](std::int32_t c) { return clearance[c] > 0.0F; });
-    rig.load(map, inflation, goal);
-    const paper::FieldQuality cold = rig.solve(goal);
+    const auto is_free = [&](std::int32_t c) { return clearance[c] > 0.0F; };
+    rig.load(map, inflation, field::nearest_cell(rig.grid, i, j, 256, is_free));
+    const paper::FieldQuality cold = rig.solve();
     CHECK(cold.certified);
     CHECK(cold.joined > 1000);
-    CHECK(rig.share_of_best(goal) >= 0.999);
+    CHECK(rig.share_of_best() >= 0.999);
   }
 }
 
@@ -133,11 +129,10 @@ TEST_CASE(
   for (std::int32_t j = 16, turn = 0; j + 15 < 1023; j += 17, ++turn) {  // 60 corridors
     map.box(0, j, 1024, j + 2), map.box(turn % 2 == 0 ? 1008 : 1, j, turn % 2 == 0 ? 1023 : 16, j + 2, 0);
   }
-  const std::int32_t goal = rig.grid.at(12, 6);
-  rig.load(map, 3.0F, goal);
-  REQUIRE(rig.solve(goal).certified);
+  rig.load(map, 3.0F, rig.grid.at(12, 6));
+  REQUIRE(rig.solve().certified);
   for (int tick = 0; tick < 4; ++tick) {
-    const paper::FieldQuality warm = rig.pass.solve(rig.grid, goal, paper::From::kLast);
+    const paper::FieldQuality warm = rig.solve(paper::From::kLast);
     CHECK(warm.certified);
     CHECK(warm.cycles <= paper::kWarmCycles.most);
     CHECK(warm.joined > 400000);
@@ -146,13 +141,11 @@ TEST_CASE(
 
 TEST_CASE("free cells at the window's border are as right as others: nothing is coupled across it") {
   FieldRig<> rig(64);
-  const std::int32_t goal = rig.grid.at(20, 30), n = rig.grid.cells();
-  std::fill_n(rig.arrays().occupants, n, std::uint8_t{0});
-  for (std::int32_t i = 30; i < 60; ++i) rig.arrays().occupants[rig.grid.at(i, 20)] = paper::kWall;
-  (void)rig.pass.clear(rig.grid, 0.0F, paper::kWall);
-  (void)rig.pass.start(rig.grid, goal);
-  (void)rig.solve(goal, 4);
-  const std::vector<double> exact = rig.exact(goal);
+  TestMap map("open to its border", 64);
+  map.box(0, 0, 64, 64, 0), map.box(30, 20, 60, 21);
+  rig.load(map, 0.0F, rig.grid.at(20, 30));
+  rig.solve_fully();
+  const std::vector<double> exact = rig.exact();
   double worst = 0.0;
   for (std::int32_t j = 0; j < 64; ++j) {
     for (const std::int32_t c : {rig.grid.at(0, j), rig.grid.at(63, j), rig.grid.at(j, 0), rig.grid.at(j, 63)}) {
@@ -164,33 +157,29 @@ TEST_CASE("free cells at the window's border are as right as others: nothing is 
 
 TEST_CASE("a pit breaks the certificate and is counted, and lowers the reach") {
   FieldRig<> rig(64);
-  const std::int32_t goal = rig.grid.at(55, 50);
-  rig.load(rooms(), 1.0F, goal);
-  (void)rig.solve(goal);
+  rig.load(rooms(), 1.0F, rig.grid.at(55, 50));
+  (void)rig.solve();
   rig.psi()[rig.grid.at(10, 10)] -= 5.0F;
   std::vector<paper::Counted> pits(64);
-  rig.executor.for_each_cell(64, 1, paper::PitsOfRow{rig.grid, goal, rig.psi(), pits.data()});
+  rig.executor.for_each_cell(64, 1, paper::PitsOfRow{rig.grid, rig.goal, rig.psi(), pits.data()});
   CHECK(pits[10].cells == 1);
   rig.executor.for_each_cell(64, 64, paper::IndexOfEachCell{rig.grid, rig.psi(), rig.arrays().index});
   std::vector<std::uint8_t> seen(64 * 64);
-  const float reach = paper::share_arriving(rig.grid, rig.psi(), rig.arrays().index, goal, seen.data());
+  const float reach = paper::share_arriving(rig.grid, rig.psi(), rig.arrays().index, rig.goal, seen.data());
   CHECK(reach < 1.0F);
   CHECK(reach > 0.0F);
 }
 
 TEST_CASE("what rounding has levelled is lifted until it descends again, and nothing else moves") {
   FieldRig<> rig(64);
-  const std::int32_t goal = rig.grid.at(55, 50);
-  rig.load(rooms(), 1.0F, goal);
-  (void)rig.solve(goal);
+  rig.load(rooms(), 1.0F, rig.grid.at(55, 50));
+  (void)rig.solve();
   const std::vector<float> before(rig.psi(), rig.psi() + rig.grid.cells());
   const std::int32_t c = rig.grid.at(10, 10);
-  const float lowest =
-      std::min(std::min(rig.psi()[c - 1], rig.psi()[c + 1]), std::min(rig.psi()[c - 64], rig.psi()[c + 64]));
+  const float lowest = std::min({rig.psi()[c - 1], rig.psi()[c + 1], rig.psi()[c - 64], rig.psi()[c + 64]});
   rig.psi()[c] = lowest;
   for (const std::int32_t colour : {0, 1})
-    rig.executor.for_each_cell(64, 64, paper::LiftPits{rig.grid, colour, goal, rig.psi()});
-  CHECK(rig.psi()[c] > lowest);
+    rig.executor.for_each_cell(64, 64, paper::LiftPits{rig.grid, colour, rig.goal, rig.psi()});
   CHECK(rig.psi()[c] == std::nextafter(lowest, 1e9F));
   for (std::int32_t n = 0; n < rig.grid.cells(); ++n) {
     if (n != c && cell::is_joined(before[static_cast<std::size_t>(n)])) {

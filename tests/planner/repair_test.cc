@@ -87,10 +87,15 @@ TEST_CASE("a repaired guide has the bytes of one from nothing: walls, bodies, ro
         standing = {{movers[random.below(2) == 0 ? 0 : 1].centre_in_map, 0.25}};
       const Vec2 goal = tick % 13 == 12 ? Vec2{20.0, 1.0} : Vec2{0.45, 0.45};
       const field::Window window{{tick < 30 ? 0 : 16, 0}, kSide, 0.1};
-      const field::TimeToGoRequest request{window, &evidence, movers, standing, robot, goal, tick % 7 == 0 ? 0.6 : 0.5};
+      const PlanRequest request{.map_from_robot = {robot.x, robot.y, 0.0},
+                                .goal_in_map = goal,
+                                .speed_mps = tick % 7 == 0 ? 0.6 : 0.5,
+                                .still = &evidence,
+                                .standing = standing,
+                                .masked = movers};
       field::TimeToGoField::Memory fresh(kSide);
-      const Guide a = kept.settle(request, memories[tick % 2]);
-      const Guide b = field::TimeToGoField(0.19, 0.3, kSide).settle(request, fresh);
+      const Guide a = kept.settle(request, window, memories[tick % 2]);
+      const Guide b = field::TimeToGoField(0.19, 0.3, kSide).settle(request, window, fresh);
       REQUIRE(a.through_unseen == b.through_unseen);
       REQUIRE(same(a.to_go_s, b.to_go_s, kCells));
       REQUIRE(same(a.surface, b.surface, kCells));

@@ -6,6 +6,7 @@
 
 #include "planner/cost_to_go/planner.h"
 #include "planner/paper/paper.h"
+#include "tests/planner/one_plan.h"
 #include "tests/planner/test_maps.h"
 #include "tests/support/catch.h"
 
@@ -32,9 +33,14 @@ inline std::vector<Track> crowd() {
   return tracks;
 }
 
-inline paper::PaperConfig small_window() {
+inline paper::PaperConfig window(std::int32_t side) {
   paper::PaperConfig config;
-  config.side_cells = config.max_side_cells = 64;
+  config.side_cells = config.max_side_cells = side;
+  return config;
+}
+
+inline paper::PaperConfig small_window() {
+  paper::PaperConfig config = window(64);
   config.inflation_m = 0.15;
   config.mover_margin_m = 0.1;
   return config;
@@ -90,11 +96,8 @@ inline void check_crowd(
 /// A robot that sets out from one corner of a map for the other.
 inline void check_run(Planner& cpu, Planner& other, const TestMap& map, int ticks) {
   const EvidenceMap evidence = evidence_of(map);
-  PlanRequest request;
-  request.map_from_robot = {1.07, 0.65, 0.4};
-  request.goal_in_map = {0.1 * map.side - 1.29, 0.1 * map.side - 1.32};
-  request.speed_mps = 0.6;
-  request.still = &evidence;
+  PlanRequest request = request_on(evidence, {1.07, 0.65}, {0.1 * map.side - 1.29, 0.1 * map.side - 1.32});
+  request.map_from_robot.heading = 0.4;
   for (int tick = 0; tick < ticks; ++tick) {
     request.map_from_robot.x += 0.04;
     check_plan(cpu, other, request);

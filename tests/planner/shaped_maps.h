@@ -37,18 +37,16 @@ inline void check_field(const paper::CellMap& map, paper::MapField& other) {
   CellIndex goal{0, 0};
   REQUIRE(serial->nearest_free(goal, 100));
   for (const bool cold : {true, false}) {
-    const paper::MapQuality a = cold ? serial->solve_cold(goal) : serial->solve_warm(goal);
-    const paper::MapQuality b = cold ? other.solve_cold(goal) : other.solve_warm(goal);
+    const paper::FieldQuality a = cold ? serial->solve_cold(goal) : serial->solve_warm(goal);
+    const paper::FieldQuality b = cold ? other.solve_cold(goal) : other.solve_warm(goal);
     CHECK(a.certified);
     CHECK(b.certified);
     CHECK(a.joined == b.joined);
     CHECK(a.cycles == b.cycles);
     int differ = 0;
-    for (std::int32_t j = 0; j < map.height; ++j) {
-      for (std::int32_t i = 0; i < map.width; ++i) {
-        const float x = serial->psi(i, j), y = other.psi(i, j);
-        differ += same(&x, &y, 1) ? 0 : 1;
-      }
+    for (std::int32_t c = 0; c < map.width * map.height; ++c) {
+      const float x = serial->psi(c % map.width, c / map.width), y = other.psi(c % map.width, c / map.width);
+      differ += same(&x, &y, 1) ? 0 : 1;
     }
     CHECK(differ == 0);
   }

@@ -13,11 +13,9 @@ TEST_CASE("the start field descends to the goal from every joined cell of every 
   auto* const psi = paper::take_rows<float>(rig.executor, 256);
   std::vector<paper::Counted> rows(256);
   for (const TestMap& map : {open_room(), office(), serpentine(15), serpentine(10), clutter(3), speckle(3)}) {
-    const std::int32_t goal = rig.grid.at(12, 12);  // free in all of them, less so in the serpentines
-    const std::int32_t at = map.name[1] == 'e' ? rig.grid.at(12, 6) : goal;
-    rig.load(map, 3.0F, at);
+    rig.load(map, 3.0F, rig.grid.at(12, map.name[1] == 'e' ? 6 : 12));  // less room in the serpentines
     std::copy_n(rig.arrays().start_psi, rig.grid.cells(), psi);
-    rig.executor.for_each_cell(256, 1, paper::PitsOfRow{rig.grid, at, psi, rows.data()});
+    rig.executor.for_each_cell(256, 1, paper::PitsOfRow{rig.grid, rig.goal, psi, rows.data()});
     const paper::Counted pits = rig.executor.total(256, rows.data());
     CHECK(pits.joined > 8000);
     CHECK(pits.cells == 0);
@@ -37,14 +35,13 @@ TEST_CASE("a straight corridor costs its rate a cell") {
 TEST_CASE(
     "the start field is the one fixed point of its steps: asking every cell of its neighbours comes to the same") {
   FieldRig<> rig(64);
-  const std::int32_t goal = rig.grid.at(10, 10);
-  rig.load(rooms(), 1.0F, goal);
+  rig.load(rooms(), 1.0F, rig.grid.at(10, 10));
   paper::StartField field(64);
   std::vector<float> psi(64 * 64);
-  REQUIRE(field.settle(rig.grid, goal, rig.arrays().clearance, psi.data()));
+  REQUIRE(field.settle(rig.grid, rig.goal, rig.arrays().clearance, psi.data()));
   CHECK(std::memcmp(psi.data(), rig.arrays().start_psi, psi.size() * sizeof(float)) == 0);
   std::vector<std::uint32_t> cost(psi.size(), field::kNoWay);
-  cost[static_cast<std::size_t>(goal)] = 0;
+  cost[static_cast<std::size_t>(rig.goal)] = 0;
   const auto rate = [&](std::int32_t i, std::int32_t j) { return rig.grid.holds(i, j) ? field.rate(i, j) : 0U; };
   for (bool any = true; any;) {
     any = false;

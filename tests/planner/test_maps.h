@@ -111,10 +111,9 @@ inline TestMap speckle(std::uint64_t seed) {
 inline EvidenceMap evidence_of(const TestMap& map) {
   const double middle = map.side * 0.05;
   EvidenceMap evidence(2 * map.side, 0.1, {middle, middle});
-  for (std::int32_t j = 0; j < map.side; ++j) {
-    for (std::int32_t i = 0; i < map.side; ++i) {
-      if (map.wall[static_cast<std::size_t>(j * map.side + i)] != 0) evidence.add({i, j}, EvidenceMap::kMax);
-    }
+  for (std::int32_t c = 0; c < map.side * map.side; ++c) {
+    const bool is_wall = map.wall[static_cast<std::size_t>(c)] != 0;
+    if (is_wall) evidence.add({c % map.side, c / map.side}, EvidenceMap::kMax);
   }
   return evidence;
 }

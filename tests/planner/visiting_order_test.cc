@@ -39,15 +39,15 @@ TEST_CASE("clearance, start field, potential and index matrix do not depend on t
   FieldRig<> serial(64);
   FieldRig<ShuffledExecutor> shuffled(64);
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
-    const std::int32_t goal = serial.grid.at(55, 55), n = serial.grid.cells();
-    serial.load(small_map(seed), 1.0F, goal);
-    shuffled.load(small_map(seed), 1.0F, goal);
+    const std::int32_t n = serial.grid.cells();
+    serial.load(small_map(seed), 1.0F, serial.grid.at(55, 55));
+    shuffled.load(small_map(seed), 1.0F, serial.grid.at(55, 55));
     CHECK(same(serial.arrays().clearance, shuffled.arrays().clearance, n));
     CHECK(same(serial.arrays().start_psi, shuffled.arrays().start_psi, n));
     for (int tick = 0; tick < 2; ++tick) {
       const paper::From from = tick > 0 ? paper::From::kLast : paper::From::kNothing;
-      const paper::FieldQuality quality = serial.pass.solve(serial.grid, goal, from);
-      CHECK(shuffled.pass.solve(shuffled.grid, goal, from).pits == quality.pits);
+      const paper::FieldQuality quality = serial.solve(from);
+      CHECK(shuffled.solve(from).pits == quality.pits);
       CHECK(quality.joined > 500);
       CHECK(same(serial.psi(), shuffled.psi(), n));
       CHECK(same(serial.arrays().index, shuffled.arrays().index, n));

@@ -60,9 +60,7 @@ TEST_CASE("CARMEN lines become scans and odometry, the FLASER pose before ODOM")
                                                     "ODOM 1 0.5 0.25 0 0 0 0 host 0\n"
                                                     "ODOM 2 0.5 0.25 0 0 0 2.5 host 2.5\n"));
   REQUIRE(log.scans.size() == 1);
-  CHECK(log.range_m[0] == 1.0F);
-  CHECK(std::isinf(log.range_m[1]));
-  CHECK(std::isinf(log.range_m[2]));
+  CHECK(log.range_m == std::vector<float>{1.0F, HUGE_VALF, HUGE_VALF, 3.0F});
   REQUIRE(log.odometry.size() == 3);
   CHECK(log.odometry[1].pose == Pose2{1, 0.5, 0.25});
   CHECK(log.odometry[1].stamp == time_from_seconds(2.0));
@@ -82,8 +80,7 @@ TEST_CASE("CARMEN's newer laser messages say their own beams, and ROBOTLASER1 wh
   CHECK(log.scans[1].beams == 3);
   CHECK(log.scans[0].first_angle_rad == -0.5F);
   CHECK(log.scans[0].angle_step_rad == 0.5F);
-  CHECK(log.range_m[0] == 1.5F);
-  CHECK(std::isinf(log.range_m[1]));  // its own longest range
+  CHECK(log.range_m == std::vector<float>{1.5F, HUGE_VALF, 2.5F, 1.5F, HUGE_VALF, 2.5F});  // 20 m: its longest
   CHECK(log.robot_from_laser.x == Approx(0.3));
   REQUIRE(log.odometry.size() == 3);
   CHECK(log.odometry[1].pose == Pose2{1, 2, 0});

@@ -18,6 +18,8 @@ std::string refusal(const std::string& scan_file) {
   return refusal_of([&] { return load_scan_odom(scan_file); });
 }
 
+const std::string kThreeBeams = " -0.1 0.1 0.03 11.0 3 1.0 2.0 3.0\n";  // of a scan, behind its time
+
 constexpr const char* kTwoScans =
     "# t angle_min angle_inc range_min range_max n r\n"
     "100.5 -0.1 0.1 0.03 11.0 3 1.0 nan 2.5\r\n"
@@ -41,20 +43,9 @@ TEST_CASE("scan-odom gives scans with their own angles and stamps") {
   CHECK(laser.rate_hz == Approx(4.0));  // 0.25 s apart
 }
 
-TEST_CASE("odometry comes from its own file") {
-  const Scratch scratch;
-  const RecordedLog log =
-      load_scan_odom(scratch.write("scan.txt", kTwoScans),
-                     scratch.write("odom.txt", "100.4 1 2 0.5 0.25 0.125\n100.6 1.1 2 7.0 0.25 0\n"));
-  REQUIRE(log.odometry.size() == 2);
-  CHECK(log.odometry[0].pose == Pose2{1, 2, 0.5});
-  CHECK(log.odometry[0].twist == Twist2{0.25, 0.125});
-  CHECK(log.odometry[1].pose.heading == Approx(7.0 - 2 * kPi));
-}
-
 TEST_CASE("one stamp far ahead of its time is left out, and those after it are not") {
   const Scratch scratch;
-  const std::string rest = " -0.1 0.1 0.03 11.0 3 1.0 2.0 3.0\n";
+  const std::string& rest = kThreeBeams;
   for (const std::string ahead : {"100.3", "120", "1100"}) {
     const RecordedLog log = load_scan_odom(
         scratch.write("scan.txt", "100.1" + rest + "100.2" + rest + ahead + rest + "100.4" + rest + "100.5" + rest));
@@ -69,7 +60,7 @@ TEST_CASE("one stamp far ahead of its time is left out, and those after it are n
 
 TEST_CASE("a plain recording's laser spins once a scan, or ten times a second where scans are fewer") {
   const Scratch scratch;
-  const std::string beams = " -0.1 0.1 0.03 11.0 3 1.0 1.0 1.0\n";
+  const std::string& beams = kThreeBeams;
   // 0.2 rad of a turn: 0.2 / 2 pi of 0.1 s, and of 0.05 s.
   CHECK(to_seconds(load_scan_odom(scratch.write("scan.txt", kTwoScans)).sweep) == Approx(0.00318310));
   const auto fast = scratch.write("fast.txt", "1.00" + beams + "1.05" + beams + "1.10" + beams);
@@ -216,8 +207,13 @@ TEST_CASE("a line that is odd is left out, counted and told, wherever it stands"
   }
   const RecordedLog log =
       load_scan_odom(scratch.write("scan.txt", kTwoScans),
-                     scratch.write("odom.txt", "100.4 1e256 0 0 0 0\n100.5 0 0 0 nan 0\n100.6 1 2 0.5 0.25 0\n"));
-  CHECK(log.odometry.size() == 1);
+                     scratch.write("odom.txt",
+                                   "100.4 1e256 0 0 0 0\n100.5 0 0 0 nan 0\n100.6 1 2 0.5 0.25 0.125\n"
+                                   "100.7 1.1 2 7.0 0.25 0\n"));
+  REQUIRE(log.odometry.size() == 2);
+  CHECK(log.odometry[0].pose == Pose2{1, 2, 0.5});
+  CHECK(log.odometry[0].twist == Twist2{0.25, 0.125});
+  CHECK(log.odometry[1].pose.heading == Approx(7.0 - 2 * kPi));
   CHECK(holds(log.complaint(), "line 1: a pose that is none"));
   CHECK(holds(log.complaint(), "line 2: a speed that is none"));
 }

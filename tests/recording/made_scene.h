@@ -13,13 +13,10 @@ inline FieldRaster made_field(Vec2 goal) {
     for (int i = 0; i < field.width; ++i) {
       const Vec2 p{0.05 + 0.1 * i, 0.05 + 0.1 * j};
       const bool pillar = distance(p, {8.0, 5.0}) < 1.3;
-      const bool border = p.x < 0.4 || p.y < 0.4 || p.x > 15.6 || p.y > 11.6;
-      const double round_pillar = 3.0 / (0.5 + distance(p, {8.0, 5.0}));
-      field.psi.push_back(pillar || border ? std::numeric_limits<float>::quiet_NaN()
-                                           : static_cast<float>(distance(p, goal) + round_pillar));
+      field.psi.push_back(pillar ? std::numeric_limits<float>::quiet_NaN() : static_cast<float>(distance(p, goal)));
     }
   }
-  field.psi[200 * 30 / 10] = std::numeric_limits<float>::infinity();
+  field.psi[600] = std::numeric_limits<float>::infinity();
   return field;
 }
 
@@ -36,24 +33,20 @@ inline PictureScene made_scene() {
   PictureScene scene;
   scene.title = "crossing, seed 1: goal reached";
   scene.facts = {{"outcome", "reached"}, {"path", "13.9 m"}, {"shortest", "13.2 m"}, {"time", "28.0 s"}};
-  for (const auto& [from, to] :
-       {std::pair<Vec2, Vec2>{{0, 0}, {16, 0}}, {{16, 0}, {16, 12}}, {{16, 12}, {0, 12}}, {{0, 12}, {0, 0}}}) {
-    scene.walls.push_back({from, to});
-  }
+  scene.walls = {{{0, 0}, {16, 0}}, {{16, 0}, {16, 12}}, {{16, 12}, {0, 12}}, {{0, 12}, {0, 0}}};
   for (int i = 0; i < 120; ++i) scene.occupied.push_back({0.05 + 0.1 * i, 0.05});
   for (int i = 0; i < 63; ++i) scene.occupied.push_back(Vec2{8.0, 5.0} + direction(0.1 * i) * 1.0);
   scene.start = Pose2{1.5, 2.0, 0.3};
   scene.goal = Vec2{14.0, 9.0};
   for (int i = 0; i <= 140; ++i) {
-    const double t = 0.2 * i;
-    const double s = 0.5 * t / 14.0;
+    const double t = 0.2 * i, s = 0.5 * t / 14.0;
     scene.driven.push_back({time_from_seconds(t), {1.5 + 12.5 * s, 2.0 + 7.0 * s * s, atan2(14.0 * s, 12.5)}});
   }
   for (std::uint32_t id = 1; id <= 5; ++id) {
     scene.movers.push_back(
         made_trail(id, {2.0 + 2.5 * id, 2.0 + 1.3 * id}, {0.15 * (id % 3) - 0.15, 0.2 - 0.1 * (id % 4)}, 140));
   }
-  PlanMoment moment;
+  PlanMoment& moment = scene.moment.emplace();
   moment.t = time_from_seconds(12.0);
   moment.map_from_robot = scene.driven[60].pose;
   moment.field = made_field(*scene.goal);
@@ -66,9 +59,8 @@ inline PictureScene made_scene() {
     track.id = 10 + id;
     track.position_in_map = scene.movers[id - 1].points[60].position;
     moment.tracks.push_back(track);
-    moment.predictions.push_back({track.id, track.position_in_map + Vec2{0.6, 0.5}, 0.57, 2.0});
+    moment.predictions.push_back({track.id, track.position_in_map + Vec2{0.6, 0.5}, 0.57});
   }
-  scene.moment = moment;
   scene.footprint = p3dx().footprint;
   scene.extent = extent_of(scene);
   return scene;

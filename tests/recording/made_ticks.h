@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "firmware/recording/recorder.h"
-#include "firmware/recording/tick_entry.h"
 
 namespace jaywalk {
 
@@ -20,33 +19,25 @@ inline constexpr std::uint32_t kOddNan = 0x7FA5A5A5;
 /// Tick `n` at 20 ms a tick; a new scan every third, a new fix every fifth tick.
 inline void fill(TickRecord& r, std::uint32_t n) {
   const double x = 0.1 * (1 + static_cast<double>(n));
-  r.scan.stamp = Time{Duration{1000 + n / 3}};
-  r.scan.sequence = 1 + n / 3;
-  r.scan.beam_count = 5;
-  r.scan.first_angle_rad = -1.5F;
-  r.scan.angle_step_rad = 0.25F;
-  r.scan.range_min_m = 0.02F;
-  r.scan.range_max_m = 25.0F;
-  r.scan.sweep = Duration{7};
-  r.scan.period = Duration{8};
-  r.scan.range_m[0] = static_cast<float>(1 + n / 3);
-  r.scan.range_m[1] = std::bit_cast<float>(kOddNan);
-  r.scan.range_m[2] = std::numeric_limits<float>::infinity();
-  r.scan.range_m[3] = -0.0F;
-  r.scan.range_m[4] = std::numeric_limits<float>::denorm_min();
+  using Float = std::numeric_limits<float>;
+  r.scan = {.stamp = Time{Duration{1000 + n / 3}},
+            .sequence = 1 + n / 3,
+            .beam_count = 5,
+            .first_angle_rad = -1.5F,
+            .angle_step_rad = 0.25F,
+            .range_min_m = 0.02F,
+            .range_max_m = 25.0F,
+            .sweep = Duration{7},
+            .period = Duration{8},
+            .range_m = {static_cast<float>(1 + n / 3), std::bit_cast<float>(kOddNan), Float::infinity(), -0.0F,
+                        Float::denorm_min()}};
   r.wheels = {
       Time{Duration{11}}, n + 1, x, x * 2, x * 3, x * 4, DriveTrouble::kDriveSilent, {DriveFaultKind::kVesc, 23, n},
       StopStage::kSilent, false};
   r.input = {Time{Duration{12}}, true, {x * 5, x * 6},   x * 7, x * 18, x * 19, n % 2 == 1,
              n % 2 == 0,         true, {x * 20, -x * 21}};
   if (n % 7 == 3) r.input.goal_heading_rad = kAnyHeading;
-  r.fix.stamp = Time{Duration{13}};
-  r.fix.sequence = 1 + n / 5;
-  r.fix.has_pose = true;
-  r.fix.map_from_robot = {1.0, 2.0, 3.0};
-  r.fix.position_std_m = 0.25;
-  r.fix.heading_std_rad = 0.5;
-  r.fix.mover_std_m = 0.75;
+  r.fix = {Time{Duration{13}}, 1 + n / 5, true, {1.0, 2.0, 3.0}, 0.25, 0.5, 0.75, {}};
   for (std::uint32_t i = 0; i < n / 5 % 3; ++i) {
     static_cast<void>(r.fix.movers.push_back({i + n / 5, {1.5 * i, 2.5 * i}, 0.125}));
   }
@@ -108,16 +99,9 @@ inline std::unique_ptr<TickRecord> record_of(std::span<const unsigned char> entr
   return fields(a) == fields(b) && std::memcmp(a.range_m.data(), b.range_m.data(), sizeof a.range_m) == 0;
 }
 
-[[nodiscard]] inline bool same_fix(const OutsideFix& a, const OutsideFix& b) {
-  const auto fields = [](const OutsideFix& f) {
-    return std::tie(f.stamp, f.sequence, f.has_pose, f.map_from_robot, f.position_std_m, f.heading_std_rad,
-                    f.mover_std_m);
-  };
-  return fields(a) == fields(b) && std::equal(a.movers.begin(), a.movers.end(), b.movers.begin(), b.movers.end(),
-                                              [](const ObservedMover& m, const ObservedMover& n) {
-                                                return std::tie(m.id, m.position_in_map, m.radius_m) ==
-                                                       std::tie(n.id, n.position_in_map, n.radius_m);
-                                              });
+[[nodiscard]] inline bool same_movers(const OutsideFix& a, const OutsideFix& b) {
+  const auto fields = [](const ObservedMover& m) { return std::tie(m.id, m.position_in_map, m.radius_m); };
+  return std::ranges::equal(a.movers, b.movers, {}, fields, fields);
 }
 
 [[nodiscard]] inline bool same_path(const PlannedPath& a, const PlannedPath& b) {
@@ -128,9 +112,11 @@ inline std::unique_ptr<TickRecord> record_of(std::span<const unsigned char> entr
   const auto devices = [](const TickRecord& t) {
     const WheelState& w = t.wheels;
     const OperatorInput& i = t.input;
+    const OutsideFix& f = t.fix;
     return std::tie(t.now, t.took, w.stamp, w.sequence, w.left_rad, w.right_rad, w.left_radps, w.right_radps, w.trouble,
                     w.fault, w.stop, w.ready, i.stamp, i.has_goal, i.goal_in_map, i.goal_tolerance_m,
-                    i.goal_heading_tolerance_rad, i.emergency_stop, i.reset);
+                    i.goal_heading_tolerance_rad, i.emergency_stop, i.reset, f.stamp, f.sequence, f.has_pose,
+                    f.map_from_robot, f.position_std_m, f.heading_std_rad, f.mover_std_m);
   };
   const auto made = [](const TickRecord& t) {
     return std::tie(t.pose.stamp, t.pose.map_from_robot, t.pose.position_std_m, t.pose.heading_std_rad, t.plan_asked,
@@ -140,7 +126,7 @@ inline std::unique_ptr<TickRecord> record_of(std::span<const unsigned char> entr
   };
   const auto heading = [](const TickRecord& t) { return std::bit_cast<std::uint64_t>(t.input.goal_heading_rad); };
   return devices(a) == devices(b) && heading(a) == heading(b) && made(a) == made(b) && same_scan(a.scan, b.scan) &&
-         same_fix(a.fix, b.fix) && same_path(a.path, b.path);
+         same_movers(a.fix, b.fix) && same_path(a.path, b.path);
 }
 
 }  // namespace jaywalk

@@ -162,7 +162,7 @@ TEST_CASE("the busiest moment is the plan with most expected near the robot") {
   CHECK(busiest.moment()->field.psi == planner->psi);
 
   plan.stamp = time_from_seconds(2);
-  REQUIRE(plan.predictions.push_back({1, {1, 0}, 0.5, 1.0}));
+  REQUIRE(plan.predictions.push_back({1, {1, 0}, 0.5}));
   busiest.consider(plan, *planner, {}, {});
   plan.stamp = time_from_seconds(3);
   plan.predictions[0].position_in_map = {5, 0};

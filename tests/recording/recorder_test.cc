@@ -4,7 +4,6 @@
 #include <thread>
 #include <vector>
 
-#include "firmware/recording/tick_entry.h"
 #include "hal/types/errors.h"
 #include "tests/recording/made_ticks.h"
 #include "tests/recording/scratch.h"

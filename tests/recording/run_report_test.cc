@@ -37,30 +37,30 @@ std::string drive(const std::filesystem::path& folder, bool with_truth) {
     tracks[0].stamp = tracks[0].last_seen = record->scan.stamp;
     tracks[0].position_in_map = {1, 0.1 * i};
     const std::array<TrueMover, 1> movers{{{4, {1, 2}, {0, -0.4}, 0.25, i == 50}}};
-    TrueState truth{{0.02 * i, 0, 0}, {1, 0}, movers};
-    truth.clearance_m = 2.0 - 0.01 * i;
-    truth.mover_clearance_m = i == 30 ? 0.75 : 3.0;
-    truth.contacts = 2;
-    truth.contacts_caused = 1;
-    truth.forced_movers = i < 50 ? 0 : 1;
-    truth.social = {0.02 * i, 0.01 * i, 0.5, 0.25};
+    const TrueState truth{.map_from_robot = {0.02 * i, 0, 0},
+                          .twist = {1, 0},
+                          .movers = movers,
+                          .clearance_m = 2.0 - 0.01 * i,
+                          .mover_clearance_m = i == 30 ? 0.75 : 3.0,
+                          .contacts = 2,
+                          .contacts_caused = 1,
+                          .forced_movers = i < 50 ? 0U : 1U,
+                          .social = {0.02 * i, 0.01 * i, 0.5, 0.25}};
     RunSample sample{*record, tracks};
     if (with_truth) sample.truth = &truth;
     sample.tick_took = Duration{i == 100 ? 3'000'000 : 1'000'000};
     if (i % 5 == 0) sample.plan_took = {.ms = 0.5, .processor_ms = 0.25, .device_ms = 0.125};
     report.add(sample);
   }
-  RunEnd end;
-  end.outcome = "reached";
-  end.success = true;
-  end.static_shortest_path_m = 1.9;
-  end.backend = "cpu";
-  end.mode = "full";
-  end.seed = 7;
-  end.version = "0.1.0";
   CHECK(report.driven().size() == 11);
   CHECK(report.mover_trails().size() == (with_truth ? 1 : 0));
-  return report.finish(end);
+  return report.finish({.outcome = "reached",
+                        .success = true,
+                        .static_shortest_path_m = 1.9,
+                        .backend = "cpu",
+                        .mode = "full",
+                        .seed = 7,
+                        .version = "0.1.0"});
 }
 
 std::vector<std::string> lines_of(const std::string& text) {
@@ -98,21 +98,18 @@ TEST_CASE("the summary has every figure of the run") {
   const Json expected = Json::parse(R"({"outcome": "reached", "success": true, "static_shortest_path_m": 1.9,
 "min_mover_clearance_m": 0.75, "forced_movers": 1, "intimate_s": 2.0, "personal_s": 1.0, "slowed_m": 0.5,
 "turned_rad": 0.25, "contacts": 2, "contacts_caused": 1, "accel_max_mps2": 0.0, "jerk_max_mps3": 0.0, "ticks": 101,
-"missed_ticks": 0, "not_recorded": [], "seed": 7, "mode": "full", "backend": "cpu", "version": "0.1.0"})");
+"missed_ticks": 0, "not_recorded": [], "seed": 7, "mode": "full", "backend": "cpu", "version": "0.1.0",
+"tick_ms/p50": 1.0, "tick_ms/max": 3.0, "plan_ms/p99": 0.5,
+"plan_processor_ms/p99": 0.25, "plan_device_ms/max": 0.125})");
   for (const auto& [key, value] : expected.items()) {
     CAPTURE(key);
-    CHECK(j.at(key) == value);
+    CHECK(j.at(Json::json_pointer("/" + key)) == value);
   }
   CHECK(j["faults"] == 2);  // an emergency stop is none
   for (const auto& [key, value] : {std::pair{"path_length_m", 2.0}, {"duration_s", 2.0}, {"min_clearance_m", 1.0}})
     CHECK(j[key].get<double>() == Approx(value));
   CHECK(j["max_turn_deg"].get<double>() == Approx(0.0).margin(1e-9));
   CHECK(j["turn_histogram"].size() == 18);
-  CHECK(j["tick_ms"]["p50"] == 1.0);
-  CHECK(j["tick_ms"]["max"] == 3.0);
-  CHECK(j["plan_ms"]["p99"] == 0.5);
-  CHECK(j["plan_processor_ms"]["p99"] == 0.25);
-  CHECK(j["plan_device_ms"]["max"] == 0.125);
 }
 
 TEST_CASE("what only a world can know is null in a replay") {
@@ -131,15 +128,6 @@ TEST_CASE("what only a world can know is null in a replay") {
 
 TEST_CASE("without a folder the figures are kept and nothing is written") {
   CHECK(Json::parse(drive("", true))["ticks"] == 101);
-}
-
-TEST_CASE("the same run leaves the same bytes") {
-  const Scratch scratch;
-  drive(scratch.folder() / "a", true);
-  drive(scratch.folder() / "b", true);
-  for (const std::string name : {"robot.csv", "movers.csv", "tracks.csv", "summary.json"}) {
-    CHECK(scratch.read("a/" + name) == scratch.read("b/" + name));
-  }
 }
 
 TEST_CASE("a table that the disk did not take whole stands in the summary by its name") {

@@ -15,20 +15,7 @@ const faults::FaultCase& row(std::string_view name) {
   return *std::ranges::find_if(faults::all_cases(), [&](const faults::FaultCase& fault) { return fault.name == name; });
 }
 
-std::string status_of(FaultBench& bench) { return bench.robot().desk().obey("status"); }
-
 }  // namespace
-
-TEST_CASE("VESCs below their minimum ERPM latch wheels_disobey, and the status names minimum ERPM and the figure") {
-  for (const double speed_mps : {0.3, 0.6}) {
-    const Scratch folder;
-    FaultBench bench(row("below_minimum_erpm"), DriveKind::kVesc, speed_mps, 50.0, folder.folder());
-    const faults::FaultResult result = bench.suffer();
-    CHECK(result.why_not == "");
-    CHECK(result.stop_distance_m < 0.01);
-    CHECK(holds(status_of(bench), "minimum ERPM lies above; set that to 0"));
-  }
-}
 
 TEST_CASE("VESCs without a minimum ERPM drive as they did") {
   faults::FaultCase stop = row("emergency_stop");
@@ -38,19 +25,25 @@ TEST_CASE("VESCs without a minimum ERPM drive as they did") {
   CHECK(bench.suffer().why_not == "");
 }
 
-TEST_CASE("a drive's fault stands in the status with node, code and meaning, and a Pioneer's stop button does") {
+TEST_CASE("the status names a drive's node, code and meaning, a Pioneer's stop button and a VESC's minimum ERPM") {
   struct Shown {
     const char* fault;
     DriveKind kind;
+    double speed_mps, most_m;  ///< way to rest
     const char* line;
   };
-  for (const auto& [fault, kind, line] :
-       {Shown{"drive_fault_left", DriveKind::kVesc, "\ndrive_fault: VESC 23: fault 33 (not known)\n"},
-        Shown{"stop_button", DriveKind::kPioneer, "\ndrive_fault: Pioneer: stop button pressed\n"}}) {
-    CAPTURE(fault);
+  const char* const erpm = "minimum ERPM lies above; set that to 0";
+  for (const auto& [fault, kind, speed_mps, most_m, line] :
+       {Shown{"drive_fault_left", DriveKind::kVesc, 0.6, 9.0, "\ndrive_fault: VESC 23: fault 33 (not known)\n"},
+        Shown{"stop_button", DriveKind::kPioneer, 0.6, 9.0, "\ndrive_fault: Pioneer: stop button pressed\n"},
+        Shown{"below_minimum_erpm", DriveKind::kVesc, 0.3, 0.01, erpm},
+        Shown{"below_minimum_erpm", DriveKind::kVesc, 0.6, 0.01, erpm}}) {
+    CAPTURE(fault, speed_mps);
     const Scratch folder;
-    FaultBench bench(row(fault), kind, 0.6, 50.0, folder.folder());
-    CHECK(bench.suffer().why_not == "");
-    CHECK(holds(status_of(bench), line));
+    FaultBench bench(row(fault), kind, speed_mps, 50.0, folder.folder());
+    const faults::FaultResult result = bench.suffer();
+    CHECK(result.why_not == "");
+    CHECK(result.stop_distance_m < most_m);
+    CHECK(holds(bench.robot().desk().obey("status"), line));
   }
 }

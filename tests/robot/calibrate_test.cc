@@ -143,7 +143,7 @@ TEST_CASE("a robot on wires calibrates itself") {
 
 TEST_CASE("wheels that are not alike drive straight by a file that says so") {
   const RobotFile file =
-      tests::load(tests::text_of(tests::rig_file("robot")) +
+      tests::load(text_in(tests::rig_file("robot")) +
                   "left_wheel_radius_m = 0.0985\nright_wheel_radius_m = 0.0968\ntrack_width_m = 0.341\n");
   const auto& axes = file.drive.cia402.axes;
   // 76600 counts a turn; a metre at the left rim is 1 / 0.0985 of the wheel's own radians, and 1 / 0.0975 of the

@@ -1,7 +1,7 @@
 // Commissioning over wires, both ends in this process, time moved on by hand: every miswiring is refused.
 #include "apps/setup/scan_surfels.h"
 #include "apps/setup/watched_drive.h"
-#include "firmware/robot/commissioned.h"
+#include "firmware/robot/preflight.h"
 #include "hal/types/errors.h"
 #include "tests/robot/wired_bench.h"
 #include "tests/support/file_size_limit.h"
@@ -43,10 +43,18 @@ std::string faults_of(const std::vector<CheckedPart>& checks) {
   return words;
 }
 
-void check_says(sim::FaultKind miswired, const std::string& name, const std::string& words) {
-  const std::string said = faults_of(Bench(name, miswired).commission());
+void check_says(const std::string& name, const std::string& words, std::optional<sim::FaultKind> miswired,
+                const Rewire& believe = {}) {
+  const std::string said = faults_of(Bench(name, miswired, believe).commission());
   CAPTURE(name, said);
   CHECK(holds(said, words));
+}
+
+void check_scans_tell(const char* robot) {
+  check_says(robot, "the left wheel goes backward", sim::FaultKind::kLeftWheelReversed);
+  check_says(robot, "left and right are exchanged", sim::FaultKind::kWheelsSwapped);
+  check_says(robot, "scanner is upside down", sim::FaultKind::kScannerMirrored);
+  check_says(robot, "the robot does not", sim::FaultKind::kNoGrip);
 }
 
 }  // namespace
@@ -64,21 +72,10 @@ TEST_CASE("a robot that is wired as its file says passes every check, on all kin
 }
 
 TEST_CASE("motors that turn the other way, and one that does not turn, are named by their drives") {
-  check_says(sim::FaultKind::kBothMotorsReversed, "robot", "left drive: its encoder counts backwards");
-  check_says(sim::FaultKind::kLeftMotorReversed, "robot", "left drive: its encoder counts backwards");
-  check_says(sim::FaultKind::kLeftWheelStuck, "robot", "left drive: its wheel does not turn");
+  check_says("robot", "left drive: its encoder counts backwards", sim::FaultKind::kBothMotorsReversed);
+  check_says("robot", "left drive: its encoder counts backwards", sim::FaultKind::kLeftMotorReversed);
+  check_says("robot", "left drive: its wheel does not turn", sim::FaultKind::kLeftWheelStuck);
 }
-
-namespace {
-
-void check_scans_tell(const char* robot) {
-  check_says(sim::FaultKind::kLeftWheelReversed, robot, "the left wheel goes backward");
-  check_says(sim::FaultKind::kWheelsSwapped, robot, "left and right are exchanged");
-  check_says(sim::FaultKind::kScannerMirrored, robot, "scanner is upside down");
-  check_says(sim::FaultKind::kNoGrip, robot, "the robot does not");
-}
-
-}  // namespace
 
 TEST_CASE("what only the scans tell is named: a wheel reversed, sides exchanged or a scanner upside down, no grip") {
   check_scans_tell("robot");
@@ -89,21 +86,13 @@ TEST_CASE("what only the scans tell is named with other drives and scanners, too
   check_scans_tell("vesc_ld19");
 }
 
-TEST_CASE("a model whose wheel is a fifth larger, and a mount that is turned by 30 degrees, are refused") {
-  Bench larger("robot", {}, [](RobotFile& file) { file.setup.model.drive.wheel_radius_m *= 1.2; });
-  CHECK(holds(faults_of(larger.commission()), "left counts: the scans show 0.8"));
-  Bench turned("robot", std::nullopt,
-               [](RobotFile& file) { file.setup.model.laser.robot_from_laser.heading = kPi / 6.0; });
-  CHECK(holds(faults_of(turned.commission()), "correct [laser] mount"));
-}
-
-TEST_CASE("a mount whose x does not begin at the axle is refused, ahead and behind") {
-  for (const double off_m : {0.2, -0.25}) {
-    Bench off("robot", {}, [off_m](RobotFile& file) { file.setup.model.laser.robot_from_laser.x -= off_m; });
-    const std::string said = faults_of(off.commission());
-    CAPTURE(off_m, said);
-    CHECK(holds(said, off_m > 0.0 ? "m farther ahead of the drive axle" : "m farther behind the drive axle"));
-  }
+TEST_CASE("a wheel that is a fifth larger, a mount turned by 30 degrees, ahead of or behind its place are refused") {
+  const std::pair<const char*, Rewire> wrong[] = {
+      {"left counts: the scans show 0.8", [](RobotFile& f) { f.setup.model.drive.wheel_radius_m *= 1.2; }},
+      {"correct [laser] mount", [](RobotFile& f) { f.setup.model.laser.robot_from_laser.heading = kPi / 6.0; }},
+      {"m farther ahead of the drive axle", [](RobotFile& f) { f.setup.model.laser.robot_from_laser.x -= 0.2; }},
+      {"m farther behind the drive axle", [](RobotFile& f) { f.setup.model.laser.robot_from_laser.x += 0.25; }}};
+  for (const auto& [words, believe] : wrong) check_says("robot", words, {}, believe);
 }
 
 TEST_CASE("each of two scanners is judged by what it sees, and told by its name") {
@@ -118,13 +107,11 @@ TEST_CASE("each of two scanners is judged by what it sees, and told by its name"
   CHECK(faults.starts_with("rear scanner: wheels, scanner: "));  // and nothing of the front one
 }
 
-TEST_CASE("what the rear scanner alone sees near keeps the wheels at rest") {
-  Bench bench("two_scanners", {}, [](RobotFile& file) { file.setup.model.footprint.rear_m = 3.0; });
-  CHECK_THROWS_WITH(bench.commission(), Catch::Contains("something stands too near"));
-  CHECK(bench.speed_mps() < 0.001);
-}
-
-TEST_CASE("with something near, or when it is told to stop, no wheel goes on turning") {
+TEST_CASE(
+    "with something near, be it for the rear scanner alone, or when it is told to stop, no wheel goes on turning") {
+  Bench rear("two_scanners", {}, [](RobotFile& file) { file.setup.model.footprint.rear_m = 3.0; });
+  CHECK_THROWS_WITH(rear.commission(), Catch::Contains("something stands too near"));
+  CHECK(rear.speed_mps() < 0.001);
   Bench near("robot", {}, [](RobotFile& file) { file.setup.model.footprint.half_width_m = 1.9; });
   CHECK_THROWS_AS(near.commission(), StartupError);
   CHECK(near.speed_mps() < 0.001);

@@ -1,35 +1,27 @@
 #include "firmware/robot/control_socket.h"
 
-#include <unistd.h>
-
 #include <fstream>
 #include <thread>
 
+#include "hal/text_file.h"
 #include "hal/types/errors.h"
-#include "tests/robot/socket_address.h"
+#include "tests/robot/local_socket.h"
 #include "tests/support/catch.h"
 
 using namespace jaywalk;
 
 namespace {
 
-std::filesystem::path place() {
-  return std::filesystem::temp_directory_path() / ("desk" + std::to_string(::getpid()) + ".sock");
-}
+const auto place = tests::control_place;
 
 std::string echo(std::string_view line) { return "heard " + std::string(line) + "\n"; }
 
 /// What the socket answers to raw bytes.
 std::string answer_to(const std::string& bytes) {
-  const wire::FileDescriptor peer(::socket(AF_UNIX, SOCK_STREAM, 0));
-  const sockaddr_un address = tests::address_of(place());
-  REQUIRE(::connect(peer.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0);
-  static_cast<void>(::send(peer.get(), bytes.data(), bytes.size(), MSG_NOSIGNAL));
+  const wire::FileDescriptor peer = tests::connected_to(place());
+  tests::say(peer, bytes);
   ::shutdown(peer.get(), SHUT_WR);
-  std::string answer(1000, '\0');
-  const ssize_t got = ::recv(peer.get(), answer.data(), answer.size(), MSG_WAITALL);
-  answer.resize(got > 0 ? static_cast<std::size_t>(got) : 0);
-  return answer;
+  return tests::heard_by(peer, MSG_WAITALL);
 }
 
 }  // namespace
@@ -59,11 +51,7 @@ TEST_CASE("a second run does not take the first one's socket, and a dead one's i
   }
   CHECK_FALSE(std::filesystem::exists(place()));
   CHECK_THROWS_AS(ask(place(), "status"), StartupError);
-  {
-    const wire::FileDescriptor dead(::socket(AF_UNIX, SOCK_STREAM, 0));
-    const sockaddr_un address = tests::address_of(place());
-    REQUIRE(::bind(dead.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0);
-  }
+  { const wire::FileDescriptor dead = tests::bound_to(place(), SOCK_STREAM); }
   const ControlSocket socket(place(), echo);
   CHECK(ask(place(), "status") == "heard status\n");
 }
@@ -71,9 +59,7 @@ TEST_CASE("a second run does not take the first one's socket, and a dead one's i
 TEST_CASE("what has the socket's name and is none is kept, whatever it is, and the run is refused") {
   std::ofstream(place()) << "precious";
   CHECK_THROWS_WITH(ControlSocket(place(), echo), Catch::Matchers::Contains("is there, and no socket of this user's"));
-  std::string kept;
-  std::ifstream(place()) >> kept;
-  CHECK(kept == "precious");
+  CHECK(text_in(place()) == "precious");
   const std::filesystem::path link = place().string() + ".link";
   std::filesystem::remove(link);
   std::filesystem::create_symlink(place(), link);
@@ -96,21 +82,18 @@ TEST_CASE("the end of a run takes its own socket away and nothing that lies ther
 
 TEST_CASE("a stop is one however it is said, as the last words of a client and after others in one write") {
   const ControlSocket socket(place(), echo);
+  const auto check_heard = [](const char* said, const std::string& line) {
+    INFO(said);
+    CHECK(answer_to(said) == "heard " + line);
+  };
   for (const char* said : {"stop now\r\n", "STOP NOW\n", "stop  now \n", "  Stop\tnow", "stop now",
                            "goto 1 2\nstop now\n", "status\nstop now", "stop\nstop now\n", "emergency stop\n",
-                           "Emergency!", "estop\n", "halt now\n", "\xEF\xBB\xBFstop now\n"}) {
-    INFO(said);
-    CHECK(answer_to(said) == "heard stop now\n");
-  }
+                           "Emergency!", "estop\n", "halt now\n", "\xEF\xBB\xBFstop now\n"})
+    check_heard(said, "stop now\n");
   for (const char* said : {"stop", "stop\r\n", "stop here!\n", "goto 1 2\r\nSTOP\r\n", "Stopp\n", "halt\n", "HALT \r\n",
-                           "\xEF\xBB\xBFstop\n", "stop \t\r\r\n", "/stop\n", "\"stop\"\n"}) {
-    INFO(said);
-    CHECK(answer_to(said) == "heard stop\n");
-  }
-  for (const char* said : {"goto 1 2\n", "non stop\n", "sto\n"}) {
-    INFO(said);
-    CHECK(answer_to(said) == "heard " + std::string(said));
-  }
+                           "\xEF\xBB\xBFstop\n", "stop \t\r\r\n", "/stop\n", "\"stop\"\n"})
+    check_heard(said, "stop\n");
+  for (const char* said : {"goto 1 2\n", "non stop\n", "sto\n"}) check_heard(said, said);
 }
 
 TEST_CASE("a socket that cannot be made is refused") {

@@ -7,6 +7,7 @@
 
 #include "apps/setup/robot_setup.h"
 #include "firmware/robot/robot_devices.h"
+#include "tests/drivers/watched_port.h"
 #include "tests/robot/wired_bench.h"
 
 namespace jaywalk {
@@ -27,22 +28,21 @@ class EmulatedMachine final : public Surroundings {
     robot = std::make_unique<rig::SimulatedRobot>(tests::empty_hall(), 3, truth_, places, std::move(far_wires),
                                                   clock.now());
     clock.live = [this] { robot->step(clock.now()); };
+    can_interfaces = [] { return std::vector<std::string>{"can0", "vcan0"}; };
+    open_bus = [this](const std::string& interface) {
+      if (interface != "vcan0") throw StartupError(interface + ": is down", "bring it up");
+      return std::make_unique<tests::WatchedPort>(wires.port(0), clock);
+    };
+    serial_lines = [this] {
+      std::vector<std::string> lines;
+      for (const LaserWiring& laser : truth_.lasers())
+        if (laser.host.empty()) lines.push_back(laser.device);
+      if (board_) lines.push_back(truth_.drive.line.device);
+      return lines;
+    };
+    hosts = [] { return std::vector<std::string>{"127.0.0.1"}; };
+    joysticks = [] { return std::vector<std::string>{"/dev/input/by-id/usb-Pad-event-joystick"}; };
   }
-
-  std::vector<std::string> can_interfaces() override { return {"can0", "vcan0"}; }
-  std::unique_ptr<CanBus> open_bus(const std::string& interface) override {
-    if (interface != "vcan0") throw StartupError(interface + ": is down", "bring it up");
-    return std::make_unique<Lent>(wires.port(0));
-  }
-  std::vector<std::string> serial_lines() override {
-    std::vector<std::string> lines;
-    for (const LaserWiring& laser : truth_.lasers())
-      if (laser.host.empty()) lines.push_back(laser.device);
-    if (board_) lines.push_back(truth_.drive.line.device);
-    return lines;
-  }
-  std::vector<std::string> hosts() override { return {"127.0.0.1"}; }
-  std::vector<std::string> joysticks() override { return {"/dev/input/by-id/usb-Pad-event-joystick"}; }
 
   /// A file with these lines, for `setup --answers`.
   std::filesystem::path answers(const std::string& text) const { return scratch.write("answers.toml", text); }
@@ -57,18 +57,6 @@ class EmulatedMachine final : public Surroundings {
   rig::HandLivingClock clock;
 
  private:
-  /// A place on the bus that is given back.
-  class Lent final : public CanBus {
-   public:
-    explicit Lent(CanBus& bus) : bus_(bus) {}
-    bool send(const CanFrame& frame) noexcept override { return bus_.send(frame); }
-    bool receive(ReceivedFrame& received) noexcept override { return bus_.receive(received); }
-    CanHealth health() const noexcept override { return bus_.health(); }
-
-   private:
-    CanBus& bus_;
-  };
-
   [[nodiscard]] RobotFile wiring(const std::string& name, bool twice) const {
     RobotFile file = tests::robot_in(scratch.folder(), tests::rig_file(name));
     file.drive.line.device = scratch.path("board");
@@ -94,7 +82,7 @@ struct TypedSetup {
   RobotDraft draft;
   std::string said;  ///< to the person
 };
-inline TypedSetup typed_setup(Surroundings& machine, Clock& clock, const std::string& typed,
+inline TypedSetup typed_setup(const Surroundings& machine, Clock& clock, const std::string& typed,
                               const std::optional<std::filesystem::path>& answers = {},
                               const std::filesystem::path& kept = {}) {
   std::istringstream person(typed);

@@ -14,34 +14,24 @@
 #include "firmware/robot/control_socket.h"
 #include "firmware/robot/operator_desk.h"
 #include "firmware/robot/realtime.h"
-#include "tests/robot/socket_address.h"
+#include "tests/robot/local_socket.h"
 #include "tests/support/catch.h"
 
 using namespace jaywalk;
 using namespace std::chrono_literals;
+using tests::heard_by, tests::say;
 
 namespace {
 
-std::filesystem::path place() {
-  return std::filesystem::temp_directory_path() / ("hostile" + std::to_string(::getpid()) + ".sock");
-}
+const auto place = tests::control_place;
 
-/// A client that never waits: where there is no room for it, it is none.
-wire::FileDescriptor hostile_client() {
-  wire::FileDescriptor peer(::socket(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK, 0));
-  const sockaddr_un address = tests::address_of(place());
-  static_cast<void>(::connect(peer.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address));
-  return peer;
-}
+/// A client that never waits.
+wire::FileDescriptor hostile_client() { return tests::connected_to(place(), SOCK_NONBLOCK); }
 
 std::vector<wire::FileDescriptor> hostile_clients(std::size_t count) {
   std::vector<wire::FileDescriptor> peers;
   while (peers.size() < count) peers.push_back(hostile_client());
   return peers;
-}
-
-void say(const wire::FileDescriptor& peer, std::string_view text) {
-  static_cast<void>(::send(peer.get(), text.data(), text.size(), MSG_NOSIGNAL));
 }
 
 bool is_dropped(const wire::FileDescriptor& peer) {
@@ -132,6 +122,25 @@ void check_stop_beside(const Hostile::Deed& first, const Hostile::Deed& next, Du
   CHECK(bench.stop_ms() < 100.0);
 }
 
+/// Rounds by hand, at times by hand.
+struct Rounds {
+  Rounds() { REQUIRE(::listen(listener.get(), 512) == 0); }
+  ~Rounds() { std::filesystem::remove(place()); }
+  void round(Duration later = 5ms) {
+    now += later;
+    clients.serve(listener.get(), now);
+  }
+
+  std::vector<std::string> lines;
+  ControlClients clients{[this](std::string_view line) -> ControlReply {
+    lines.emplace_back(line);
+    if (line == "slow") return ControlReply([] { return std::string("slowly\n"); });
+    return "heard\n";
+  }};
+  wire::FileDescriptor listener = tests::bound_to(place(), SOCK_STREAM | SOCK_NONBLOCK);
+  Time now{1h};
+};
+
 }  // namespace
 
 // SAFETY: a stop order is obeyed within 100 ms whatever other clients of the socket do.
@@ -165,40 +174,6 @@ TEST_CASE("a stop is obeyed within 100 ms beside a hundred resets that wait for 
   check_stop_beside([](wire::FileDescriptor& peer) { say(peer, "reset\n"); }, kNothing, 20ms);
 }
 
-namespace {
-
-/// Rounds by hand, at times by hand.
-struct Rounds {
-  Rounds() {
-    std::filesystem::remove(place());
-    const sockaddr_un address = tests::address_of(place());
-    REQUIRE(::bind(listener.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0);
-    REQUIRE(::listen(listener.get(), 512) == 0);
-  }
-  ~Rounds() { std::filesystem::remove(place()); }
-  void round(Duration later = 5ms) {
-    now += later;
-    clients.serve(listener.get(), now);
-  }
-  static std::string heard_by(const wire::FileDescriptor& peer) {
-    std::string text(300, '\0');
-    const ssize_t got = ::recv(peer.get(), text.data(), text.size(), MSG_DONTWAIT);
-    text.resize(got > 0 ? static_cast<std::size_t>(got) : 0);
-    return text;
-  }
-
-  std::vector<std::string> lines;
-  ControlClients clients{[this](std::string_view line) -> ControlReply {
-    lines.emplace_back(line);
-    if (line == "slow") return ControlReply([] { return std::string("slowly\n"); });
-    return "heard\n";
-  }};
-  wire::FileDescriptor listener{::socket(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK, 0)};
-  Time now{1h};
-};
-
-}  // namespace
-
 TEST_CASE("a stop that came is answered in the round that reads it, before a hundred lines that came earlier") {
   Rounds rounds;
   const std::vector<wire::FileDescriptor> others = hostile_clients(60);
@@ -206,13 +181,13 @@ TEST_CASE("a stop that came is answered in the round that reads it, before a hun
   const wire::FileDescriptor stopper = hostile_client();
   say(stopper, "stop now\n");
   rounds.round();
-  CHECK(Rounds::heard_by(stopper) == "heard\n");
+  CHECK(heard_by(stopper) == "heard\n");
   REQUIRE(rounds.lines.size() == 1 + ControlClients::kMostAnswers);
   CHECK(rounds.lines.front() == "stop now");
   // 60 others at 16 a round: the last is answered in the fourth.
   for (int k = 0; k < 3; ++k) rounds.round();
   CHECK(rounds.lines.size() == 61);
-  CHECK(Rounds::heard_by(others.back()) == "heard\n");
+  CHECK(heard_by(others.back()) == "heard\n");
 }
 
 TEST_CASE("a stop behind 400 idle connections is answered in the first round") {
@@ -251,9 +226,9 @@ TEST_CASE("where all places are taken the oldest client loses its own, and a new
   say(others[1], "status\n");
   say(late, "status\n");
   rounds.round();
-  CHECK(Rounds::heard_by(others.front()).empty());
-  CHECK(Rounds::heard_by(others[1]) == "heard\n");
-  CHECK(Rounds::heard_by(late) == "heard\n");
+  CHECK(heard_by(others.front()).empty());
+  CHECK(heard_by(others[1]) == "heard\n");
+  CHECK(heard_by(late) == "heard\n");
 }
 
 TEST_CASE("a client that does not come to the end of its line within a second is dropped, however it drips") {
@@ -275,11 +250,11 @@ TEST_CASE("an answer that takes long is given when it is there, and a second one
   say(first, "slow\n");
   say(second, "slow\n");
   rounds.round();
-  CHECK(Rounds::heard_by(second).starts_with("refused: an earlier order"));
+  CHECK(heard_by(second).starts_with("refused: an earlier order"));
   std::string answer;
   for (int k = 0; k < 10'000 && answer.empty(); ++k) {
     rounds.round(2s);  // it is not dropped meanwhile
-    answer = Rounds::heard_by(first);
+    answer = heard_by(first);
     if (answer.empty()) std::this_thread::sleep_for(1ms);
   }
   CHECK(answer == "slowly\n");

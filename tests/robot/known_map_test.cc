@@ -17,6 +17,15 @@ namespace {
 
 const std::string kMaps = JAYWALK_OWN_MAPS;
 
+/// Map of a picture, with the other lines of its YAML file.
+std::shared_ptr<const KnownMap> map_of(const std::string& pgm, const std::string& yaml) {
+  const Scratch scratch;
+  scratch.write("m.pgm", pgm);
+  return load_known_map(scratch.write("m.yaml", "image: m.pgm\n" + yaml), 0.1);
+}
+
+const std::string kThresholds = "negate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n";
+
 /// What the laser of a P3-DX sees from a pose on one of the project's maps.
 LaserScan scan_on(const std::string& map, const Pose2& pose) {
   sim::Scenario scenario;
@@ -38,16 +47,33 @@ Pose2 located(const std::string& map, const Pose2& pose, const std::string& seen
   return located_on(*own_map(map), scan_on(seen_on.empty() ? map : seen_on, pose), p3dx().laser, "robot.toml: ");
 }
 
+/// Maps and their sizes, m.
+const std::vector<std::pair<std::string, Vec2>> kFloors{
+    {"map1", {25.0, 25.0}}, {"map2", {25.0, 25.0}}, {"map3", {25.0, 25.0}},     {"map4", {25.0, 25.0}},
+    {"door", {8.6, 5.4}},   {"corner", {6.0, 6.0}}, {"crossing", {20.0, 14.0}}, {"dead_end", {8.0, 5.0}}};
+
+struct Tally {
+  int right = 0, wrong = 0, refused = 0;
+  void add(const std::string& map, const LaserScan& scan, const Pose2& pose) try {
+    const Pose2 at = located_on(*own_map(map), scan, p3dx().laser, "");
+    (distance(at.position(), pose.position()) < 0.3 ? right : wrong) += 1;
+  } catch (const StartupError&) {
+    ++refused;
+  }
+};
+
+std::optional<LaserScan> scan_if_free(const std::string& map, const Pose2& pose) try {
+  return scan_on(map, pose);
+} catch (const StartupError&) {
+  return std::nullopt;  // in a wall
+}
+
 }  // namespace
 
 TEST_CASE("a map's cells are walls, free or unknown, in cells of 0.1 m whatever its own") {
-  const Scratch scratch;
   // Two columns and one row of 0.2 m from (-0.4, 0): a wall, then free; above them unknown and free.
-  scratch.write("m.pgm", std::string("P5\n2 2\n255\n") + '\xCD' + '\xFE' + '\x00' + '\xFE');
-  const auto yaml = scratch.write("m.yaml",
-                                  "image: m.pgm\nresolution: 0.2\norigin: [-0.4, 0.0, 0.0]\nnegate: 0\n"
-                                  "occupied_thresh: 0.65\nfree_thresh: 0.196\n");
-  const auto map = load_known_map(yaml, 0.1);
+  const auto map = map_of(std::string("P5\n2 2\n255\n") + '\xCD' + '\xFE' + '\x00' + '\xFE',
+                          "resolution: 0.2\norigin: [-0.4, 0.0, 0.0]\n" + kThresholds);
   for (const std::int32_t j : {0, 1}) {
     CHECK(map->at({-4, j}) == KnownCell::kWall);
     CHECK(map->at({-3, j}) == KnownCell::kWall);
@@ -60,26 +86,20 @@ TEST_CASE("a map's cells are walls, free or unknown, in cells of 0.1 m whatever 
 }
 
 TEST_CASE("a map of up to 500 m a side is read, whatever its cells, and a larger one refused") {
-  const Scratch scratch;
-  const auto yaml = [&](int pixels, const std::string& resolution) {
-    scratch.write("m.pgm",
-                  "P5 " + std::to_string(pixels) + " 1 255\n" + std::string(static_cast<std::size_t>(pixels), '\xFE'));
-    return scratch.write("m.yaml", "image: m.pgm\nresolution: " + resolution + "\norigin: [0.05, 0.05, 0.0]\n");
+  const auto row_of = [](std::size_t pixels, const std::string& resolution) {
+    return map_of("P5 " + std::to_string(pixels) + " 1 255\n" + std::string(pixels, '\xFE'),
+                  "resolution: " + resolution + "\norigin: [0.05, 0.05, 0.0]\n");
   };
-  CHECK(load_known_map(yaml(3111, "0.045"), 0.1)->at({1399, 0}) == KnownCell::kFree);
-  CHECK(load_known_map(yaml(4999, "0.1"), 0.1)->at({4999, 0}) == KnownCell::kFree);
-  CHECK(load_known_map(yaml(49'000, "0.01"), 0.1)->at({4899, 0}) == KnownCell::kFree);
-  CHECK_THROWS_WITH(load_known_map(yaml(5100, "0.1"), 0.1), Catch::Contains("more than 500 m a side"));
+  CHECK(row_of(3111, "0.045")->at({1399, 0}) == KnownCell::kFree);
+  CHECK(row_of(4999, "0.1")->at({4999, 0}) == KnownCell::kFree);
+  CHECK(row_of(49'000, "0.01")->at({4899, 0}) == KnownCell::kFree);
+  CHECK_THROWS_WITH(row_of(5100, "0.1"), Catch::Contains("more than 500 m a side"));
 }
 
 TEST_CASE("a map that is turned lies where its origin says") {
-  const Scratch scratch;
   // A row of three cells of 0.1 m that runs up the y axis: free, free, wall.
-  scratch.write("m.pgm", std::string("P5\n3 1\n255\n") + '\xFE' + '\xFE' + '\x00');
-  const auto yaml = scratch.write("m.yaml",
-                                  "image: m.pgm\nresolution: 0.1\norigin: [1.0, 2.0, 1.5707963267948966]\nnegate: 0\n"
-                                  "occupied_thresh: 0.65\nfree_thresh: 0.196\n");
-  const auto map = load_known_map(yaml, 0.1);
+  const auto map = map_of(std::string("P5\n3 1\n255\n") + '\xFE' + '\xFE' + '\x00',
+                          "resolution: 0.1\norigin: [1.0, 2.0, 1.5707963267948966]\n" + kThresholds);
   CHECK(map->at({9, 20}) == KnownCell::kFree);
   CHECK(map->at({9, 22}) == KnownCell::kWall);
 }
@@ -120,49 +140,20 @@ TEST_CASE("a room of another building is not taken for one of the map's, though 
   }
 }
 
-namespace {
-
-struct Floor {
-  std::string map;
-  Vec2 size;
-};
-const std::vector<Floor> kFloors{{"map1", {25.0, 25.0}},     {"map2", {25.0, 25.0}},  {"map3", {25.0, 25.0}},
-                                 {"map4", {25.0, 25.0}},     {"door", {8.6, 5.4}},    {"corner", {6.0, 6.0}},
-                                 {"crossing", {20.0, 14.0}}, {"dead_end", {8.0, 5.0}}};
-
-struct Tally {
-  int right = 0, wrong = 0, refused = 0;
-  void add(const std::string& map, const LaserScan& scan, const Pose2& pose) try {
-    const Pose2 at = located_on(*own_map(map), scan, p3dx().laser, "");
-    (distance(at.position(), pose.position()) < 0.3 ? right : wrong) += 1;
-  } catch (const StartupError&) {
-    ++refused;
-  }
-};
-
-std::optional<LaserScan> scan_if_free(const std::string& map, const Pose2& pose) try {
-  return scan_on(map, pose);
-} catch (const StartupError&) {
-  return std::nullopt;  // in a wall
-}
-
-}  // namespace
-
 // Two minutes, so outside the suite: robot_tests "[places]". It prints the figures of
 // docs/tutorial/first-real-robot.md.
 TEST_CASE("places drawn at random are found on their own map or refused", "[.][places]") {
   sim::Random random(GENERATE(78U, 79U), sim::Purpose::kPlacement);
   Tally own, other;
-  for (const Floor& floor : kFloors) {
+  for (const auto& [floor, size] : kFloors) {
     for (int k = 0; k < 5;) {
-      const Pose2 pose{random.uniform(1.0, floor.size.x - 1.0), random.uniform(1.0, floor.size.y - 1.0),
-                       random.uniform(-kPi, kPi)};
-      const auto scan = scan_if_free(floor.map, pose);
+      const Pose2 pose{random.uniform(1.0, size.x - 1.0), random.uniform(1.0, size.y - 1.0), random.uniform(-kPi, kPi)};
+      const auto scan = scan_if_free(floor, pose);
       if (!scan) continue;
       ++k;
-      own.add(floor.map, *scan, pose);
+      own.add(floor, *scan, pose);
       for (const char* map : {"map1", "map2", "map3", "map4"})
-        if (map != floor.map) other.add(map, *scan, {-1e3, 0.0, 0.0});
+        if (map != floor) other.add(map, *scan, {-1e3, 0.0, 0.0});
     }
   }
   WARN("own map: " << own.right << " found, " << own.refused << " refused, " << own.wrong

@@ -16,6 +16,7 @@
 #include "planner/motion/twist_ramp.h"
 #include "tests/drivers/drive_plant.h"
 #include "tests/drivers/watched_port.h"
+#include "tests/safety/scans.h"
 
 namespace jaywalk::tests {
 
@@ -95,11 +96,7 @@ class SafetyCore {
     if (!scans_come_ || clock_.now() - scan_.stamp < std::chrono::milliseconds(60)) return;
     scan_.stamp = clock_.now();
     ++scan_.sequence;
-    scan_.beam_count = model().laser.beams;
-    scan_.first_angle_rad = static_cast<float>(-0.5 * model().laser.fov_rad);
-    scan_.angle_step_rad = static_cast<float>(model().laser.fov_rad / (scan_.beam_count - 1.0));
-    scan_.range_min_m = 0.05F;
-    scan_.range_max_m = 25.0F;
+    lay_beams(scan_, model().laser);
     scan_.range_m.fill(20.0F + 0.001F * static_cast<float>(scan_.sequence % 100));
   }
   [[nodiscard]] Twist2 wish(const OperatorInput& input) const {
@@ -119,7 +116,7 @@ class SafetyCore {
     const Verdict verdict = supervisor_.judge(
         wish(input), {.scans = scan_, .wheels = wheels_, .input = input, .plan_stamp = now, .now = now});
     permitted_ = verdict.permitted;
-    base_.command(diff_drive_.wheel_speeds(permitted_, now));
+    base_.command(wheel_speeds(model().drive, permitted_, now));
     const bool latches = supervisor_.mode() == Mode::kLatched && before_ != Mode::kLatched && asks_as_it_latches_;
     if (latches) give_goal();
     tell(verdict);
@@ -158,7 +155,6 @@ class SafetyCore {
   StopButton button_{desk_};
   ResetGate gate_{button_, desk_.permission(), base_};
   Supervisor supervisor_{config()};
-  DiffDrive diff_drive_{model().drive};
   LaserScan scan_{.stamp = Time{}};
   WheelState wheels_;
   Twist2 permitted_;

@@ -1,16 +1,57 @@
-// The tables of keys and the parsers that use them.
+// The tables of keys and the parsers that use them; files with mistakes of all kinds.
+#include <cstdlib>
+#include <functional>
+#include <random>
 #include <set>
 #include <stdexcept>
 
+#include "firmware/robot/robot_file.h"
+#include "hal/robot_model_file.h"
+#include "hal/sim/scenario.h"
 #include "hal/toml_file.h"
 #include "hal/types/errors.h"
-#include "planner/motion/blind_rim.h"
-#include "tests/robot/settings_bench.h"
+#include "planner/motion/robot_body.h"
+#include "tests/recording/scratch.h"
+#include "tests/robot/whole_settings.h"
 #include "tests/support/catch.h"
+#include "tests/support/text.h"
 
 using namespace jaywalk;
 
 namespace {
+
+struct SettingsKind {
+  const FileKeys& keys;
+  std::function<void(const std::filesystem::path&)> load;
+  std::vector<std::string> texts;
+};
+
+/// A folder with what files of settings name, and a parser for each kind of them.
+class SettingsBench {
+ public:
+  SettingsBench() {
+    folder_.write("posts.txt", "-8 -8 0.2\n8 -8 0.2\n8 8 0.2\n-8 8 0.2\n");
+    folder_.write("hall.pgm", "P5\n1 1\n255\n\xFE");
+    folder_.write("hall.yaml",
+                  "image: hall.pgm\nresolution: 0.1\norigin: [0.0, 0.0, 0.0]\nnegate: 0\n"
+                  "occupied_thresh: 0.65\nfree_thresh: 0.196\n");
+    folder_.write("stick.csv", "t_s,forward,left\n0,1,0\n");
+    folder_.write("rows.csv", "t_s,id,x_m,y_m\n0,1,0,4\n5,1,1,4\n");
+  }
+
+  [[nodiscard]] static std::vector<SettingsKind> kinds() {
+    return {{robot_file_keys(),
+             [](const auto& f) { static_cast<void>(load_robot_file(f)); },
+             {kWholeRobots.begin(), kWholeRobots.end()}},
+            {robot_model_keys(), [](const auto& f) { static_cast<void>(load_robot_model(f)); }, {kWholeModel}},
+            {sim::scenario_keys(), [](const auto& f) { static_cast<void>(sim::load_scenario(f)); }, whole_scenarios()}};
+  }
+  /// The file that holds `text` until the next call.
+  [[nodiscard]] std::filesystem::path file(const std::string& text) const { return folder_.write("it.toml", text); }
+
+ private:
+  Scratch folder_;
+};
 
 /// Adds "section.key" of all that `table` holds; where it has a kind, as "section:kind.key" too.
 void collect(const toml::value& table, const std::string& section, std::set<std::string>& keys) {
@@ -25,6 +66,51 @@ void collect(const toml::value& table, const std::string& section, std::set<std:
       if (item.is_table()) collect(item, below, keys);
   }
 }
+
+std::vector<std::string> all_pieces() {
+  std::istringstream list(
+      "nan|inf|-1|1e308|-9223372036854775808|99999999999999999999|\"\"|[]|[[]]|{}|true|1979-05-27|\"p3dx\"|[drive]\n|"
+      "[[movers]]\n|=|.|#|\"|'''|\n||\xff");
+  std::vector<std::string> pieces;
+  for (std::string piece; std::getline(list, piece, '|');) pieces.push_back(piece);
+  return pieces;
+}
+
+const std::vector<std::string> kPieces = all_pieces();
+
+class Mutator {
+ public:
+  explicit Mutator(std::uint32_t seed) : random_(seed) {}
+
+  [[nodiscard]] std::string mutated(std::string text) {
+    for (std::size_t k = 1 + below(4); k > 0; --k) mutate(text);
+    return text;
+  }
+  std::size_t below(std::size_t n) { return n == 0 ? 0 : random_() % n; }
+
+ private:
+  void mutate(std::string& text) {
+    const std::size_t at = below(text.size()), most = text.size() - at;
+    switch (below(5)) {
+      case 0:
+        if (!text.empty()) text[at] = static_cast<char>(random_());
+        return;
+      case 1: text.erase(at, below(std::min<std::size_t>(most, 30))); return;
+      case 2: text.insert(at, kPieces[below(kPieces.size())]); return;
+      case 3: replace_value(text, at); return;
+      default: text.insert(below(text.size()), text.substr(at, below(std::min<std::size_t>(most, 60))));
+    }
+  }
+  /// What stands behind the next equals sign.
+  void replace_value(std::string& text, std::size_t at) {
+    const std::size_t equals = text.find("= ", at);
+    if (equals == std::string::npos) return;
+    const std::size_t end = std::min(text.find('\n', equals), text.size());
+    text.replace(equals + 2, end - equals - 2, kPieces[below(kPieces.size())]);
+  }
+
+  std::mt19937 random_;
+};
 
 }  // namespace
 
@@ -110,4 +196,26 @@ TEST_CASE("the example robots load") {
     CHECK(robot.setup.model.limits.max_speed_mps <= 0.6);
     CHECK(robot.realtime.required);
   }
+}
+
+// By one line: never a crash, never another exception.
+TEST_CASE("mutated settings files are refused or loaded") {
+  const char* wanted = std::getenv("JAYWALK_MUTATIONS");
+  const int files = wanted != nullptr ? std::atoi(wanted) : 3000;
+  const SettingsBench bench;
+  const auto kinds = bench.kinds();
+  Mutator mutator(36);
+  int refusals = 0;
+  for (int k = 0; k < files; ++k) {
+    const SettingsKind& kind = kinds[mutator.below(kinds.size())];
+    const std::string text = mutator.mutated(kind.texts[mutator.below(kind.texts.size())]);
+    CAPTURE(k, text);
+    const std::string said = refusal_of([&] { return kind.load(bench.file(text)); });
+    if (said.empty()) continue;
+    ++refusals;
+    CHECK_FALSE(holds(said, "\n"));
+    CHECK(holds(said, "; "));
+  }
+  CHECK(refusals > files / 4);  // both happen
+  CHECK(refusals < files);
 }

@@ -60,6 +60,25 @@ bool drives_with(const RobotFile& drafted) {
   return bench.tick_until(2000, [&] { return distance(bench.truth().position(), {3.5, 4.5}) < 0.3; });
 }
 
+/// What a person knows of the robot with two scanners; `mount` is the rear one's line.
+std::string known_of_two(const EmulatedMachine& machine, const std::string& mount) {
+  const auto laser = [&machine](std::size_t k) {
+    return "[[laser]]\nhost = \"127.0.0.1\"\nport = " + std::to_string(machine.ports[k]) + "\nrange_m = 25\n";
+  };
+  return "model = \"p3dx\"\nmax_speed_mps = 0.6\nstart = [2.0, 3.0, 1.2]\n" + laser(0) + "mount = [0.2, 0.0, 0.0]\n" +
+         laser(1) + mount + "[[laser.blanked]]\nfrom_deg = 130\nto_deg = 134\n" +
+         "[drive]\ncounts_per_wheel_turn = 76600\n";
+}
+
+/// Nothing is connected, and there is no CAN.
+Surroundings bare_machine() {
+  const auto none = [] { return std::vector<std::string>(); };
+  const auto no_bus = [](const std::string& interface) -> std::unique_ptr<CanBus> {
+    throw StartupError(interface + ": no such interface", "none");
+  };
+  return {none, none, none, none, no_bus};
+}
+
 }  // namespace
 
 TEST_CASE("setup drafts a file for each kind of drive which checks and drives") {
@@ -81,20 +100,6 @@ TEST_CASE("setup drafts a file for each kind of drive which checks and drives") 
     CHECK(drives_with(file));
   }
 }
-
-namespace {
-
-/// What a person knows of the robot with two scanners; `mount` is the rear one's line.
-std::string known_of_two(const EmulatedMachine& machine, const std::string& mount) {
-  const auto laser = [&machine](std::size_t k) {
-    return "[[laser]]\nhost = \"127.0.0.1\"\nport = " + std::to_string(machine.ports[k]) + "\nrange_m = 25\n";
-  };
-  return "model = \"p3dx\"\nmax_speed_mps = 0.6\nstart = [2.0, 3.0, 1.2]\n" + laser(0) + "mount = [0.2, 0.0, 0.0]\n" +
-         laser(1) + mount + "[[laser.blanked]]\nfrom_deg = 130\nto_deg = 134\n" +
-         "[drive]\ncounts_per_wheel_turn = 76600\n";
-}
-
-}  // namespace
 
 TEST_CASE("setup drafts each of two scanners with what it found of it, and the robot drives with both") {
   EmulatedMachine machine("two_scanners");
@@ -131,9 +136,8 @@ TEST_CASE("CiA 402 drives are found by their profile and named by their identity
   const FoundDrives drives = find_drives(machine.wires.port(0), machine.clock);
   REQUIRE(drives.kind == DriveKind::kCia402);
   REQUIRE(drives.nodes.size() == 2);
-  CHECK(int{drives.nodes[0].node} == 2);
-  CHECK(int{drives.nodes[1].node} == 3);
-  check_holds(drives.nodes[0].said, {"vendor ", "serial number "});
+  CHECK(drives.nodes.contains(3));
+  check_holds(drives.nodes.at(2), {"vendor ", "serial number "});
 }
 
 TEST_CASE("nothing is said on a bus where an ODrive speaks") {
@@ -149,9 +153,8 @@ TEST_CASE("nothing is said on a bus where an ODrive speaks") {
 
 TEST_CASE("what cannot be seen and is not answered is named, with what it means") {
   EmulatedMachine machine("odrive_hokuyo");
-  SetupAnswers known(machine.answers("model = \"p3dx\"\n[laser]\nhost = \"127.0.0.1\"\n"), nullptr, nullptr);
-  check_holds(refusal_of([&] { return draft_robot(machine, known, machine.clock); }),
-              {"setup: drive.motor_turns_per_wheel_turn cannot be seen: the gear; put it into "});
+  CHECK_THROWS_WITH(machine.drafted("model = \"p3dx\"\n[laser]\nhost = \"127.0.0.1\"\n"),
+                    Catch::Contains("setup: drive.motor_turns_per_wheel_turn cannot be seen: the gear; put it into "));
 }
 
 TEST_CASE("an answer that ROBOT.toml does not know, or that is out of its range, is refused with its line") {
@@ -210,24 +213,8 @@ TEST_CASE("what the answers say besides is taken over whole") {
   CHECK(file.places[0].name == "hall");
 }
 
-namespace {
-
-/// Nothing is connected, and there is no CAN.
-class BareMachine final : public Surroundings {
- public:
-  std::vector<std::string> can_interfaces() override { return {}; }
-  std::unique_ptr<CanBus> open_bus(const std::string& interface) override {
-    throw StartupError(interface + ": no such interface", "none");
-  }
-  std::vector<std::string> serial_lines() override { return {}; }
-  std::vector<std::string> hosts() override { return {}; }
-  std::vector<std::string> joysticks() override { return {}; }
-};
-
-}  // namespace
-
 TEST_CASE("without CAN and scanner a file is written from what a person knows, who is told first what was found") {
-  BareMachine machine;
+  const Surroundings machine = bare_machine();
   rig::HandLivingClock clock;
   const TypedSetup setup =
       typed_setup(machine, clock, "p4dx\np3dx\n\n\n2\n3\n76600\n\n\nsick-cola-b\n127.0.0.1\n9\n\n");
@@ -238,7 +225,7 @@ TEST_CASE("without CAN and scanner a file is written from what a person knows, w
 }
 
 TEST_CASE("what was answered before a setup was broken off is not asked again") {
-  BareMachine machine;
+  const Surroundings machine = bare_machine();
   rig::HandLivingClock clock;
   const Scratch scratch;
   const std::string kept = scratch.path("answers");
@@ -249,7 +236,7 @@ TEST_CASE("what was answered before a setup was broken off is not asked again") 
 }
 
 TEST_CASE("a model file that the answers name is found beside them, wherever the robot's file is written") {
-  BareMachine machine;
+  const Surroundings machine = bare_machine();
   rig::HandLivingClock clock;
   const Scratch scratch;
   std::filesystem::create_directories(scratch.path("other"));

@@ -2,10 +2,12 @@
 // Settings files in which every key of the tables stands at least once.
 #include <array>
 #include <string>
+#include <vector>
 
 namespace jaywalk {
 
-inline const std::string kWholeLaser = R"(mount = [0.1, 0.0, 0.0]
+inline std::string whole_laser(const std::string& section = "laser") {
+  return R"(mount = [0.1, 0.0, 0.0]
 fov_deg = 270.0
 beams = 811
 rate_hz = 15.0
@@ -13,10 +15,9 @@ range_min_m = 0.05
 range_m = 25.0
 noise_m = 0.01
 drop_out = 0.0
-[[laser.blanked]]
-from_deg = 95.0
-to_deg = 110.0
-)";
+[[)" + section +
+         ".blanked]]\nfrom_deg = 95.0\nto_deg = 110.0\n";
+}
 
 inline const std::string kWholeZones = R"([[zones]]
 kind = "keep_out"
@@ -44,7 +45,14 @@ max_turn_accel_radps2 = 2.0
 max_jerk_mps3 = 1.5
 brake_mps2 = 0.9
 [laser]
-)" + kWholeLaser;
+)" + whole_laser();
+
+inline const std::string kTwoNodes = "\ncan = \"can0\"\nleft_node = 1\nright_node = 2\n";
+
+/// Kinds in quotes, and the keys that go with them.
+inline std::string robot_of(const std::string& model, const std::string& laser, const std::string& drive) {
+  return "model = \"" + model + "\"\n[laser]\nkind = " + laser + "\n[drive]\nkind = " + drive + "\n";
+}
 
 inline const std::array<std::string, 6> kWholeRobots{
     R"(model = "p3dx"
@@ -60,7 +68,7 @@ kind = "sick-cola-b"
 host = "192.168.0.1"
 port = 2112
 first_scan_limit_s = 10.0
-)" + kWholeLaser +
+)" + whole_laser() +
         R"([drive]
 kind = "cia402"
 can = "can0"
@@ -96,71 +104,20 @@ required = true
 [map]
 yaml = "hall.yaml"
 )" + kWholeZones,
-    R"(model = "p3dx"
-[laser]
-kind = "lms200"
-device = "/dev/ttyUSB1"
-[drive]
-kind = "pioneer"
-device = "/dev/ttyUSB0"
-baud = 115200
-ticks_per_mm = 128
-report_ms = 100.0
-report_late_ms = 20.0
-)",
-    R"(model = "p3dx"
-[laser]
-kind = "lms200"
-device = "/dev/ttyUSB1"
-[drive]
-kind = "pioneer"
-host = "192.168.0.1"
-port = 8101
-ticks_per_mm = 128
-)",
-    R"(model = "wheelchair"
-[laser]
-kind = "ld19"
-device = "/dev/ttyUSB0"
-baud = 230400
-[drive]
-kind = "odrive"
-can = "can0"
-left_node = 1
-right_node = 2
-motor_turns_per_wheel_turn = 8.0
-)",
-    R"(model = "p3dx"
-[laser]
-kind = "hokuyo"
-host = "192.168.0.10"
-[drive]
-kind = "vesc"
-can = "can0"
-left_node = 1
-right_node = 2
-electrical_turns_per_wheel_turn = 160.0
-)",
-    R"(model = "p3dx"
-[laser]
-kind = "dds"
-topic = "/front/scan"
-reliable = false
-infinity_is_free = true
-[drive]
-kind = "dds"
-odometry = "/odom"
-command = "/cmd_vel"
-stamped = true
-reliable = false
-report_ms = 100.0
-report_late_ms = 60.0
-response_ms = 120.0
-allow_unproved = true
-)"};
+    robot_of("p3dx", "\"lms200\"\ndevice = \"/dev/ttyUSB1\"",
+             "\"pioneer\"\ndevice = \"/dev/ttyUSB0\"\nbaud = 115200\nticks_per_mm = 128\nreport_ms = 100.0\n"
+             "report_late_ms = 20.0"),
+    robot_of("p3dx", "\"lms200\"\ndevice = \"/dev/ttyUSB1\"",
+             "\"pioneer\"\nhost = \"192.168.0.1\"\nport = 8101\nticks_per_mm = 128"),
+    robot_of("wheelchair", "\"ld19\"\ndevice = \"/dev/ttyUSB0\"\nbaud = 230400",
+             "\"odrive\"" + kTwoNodes + "motor_turns_per_wheel_turn = 8.0"),
+    robot_of("p3dx", "\"hokuyo\"\nhost = \"192.168.0.10\"",
+             "\"vesc\"" + kTwoNodes + "electrical_turns_per_wheel_turn = 160.0"),
+    robot_of("p3dx", "\"dds\"\ntopic = \"/front/scan\"\nreliable = false\ninfinity_is_free = true",
+             "\"dds\"\nodometry = \"/odom\"\ncommand = \"/cmd_vel\"\nstamped = true\nreliable = false\n"
+             "report_ms = 100.0\nreport_late_ms = 60.0\nresponse_ms = 120.0\nallow_unproved = true")};
 
-/// MAP is to be replaced by a whole [map] line, STICK by lines that say a kind of stick, ROWS by a file of recorded
-/// movers.
+/// A whole line of [map], and lines that say a kind of stick, stand in the places of MAP and STICK.
 inline const std::string kWholeScenario = R"(name = "whole"
 seed = 7
 timeout_s = 20.0
@@ -176,18 +133,7 @@ max_speed_mps = 0.6
 comfort = "brisk"
 [robot.laser]
 turns = true
-fov_deg = 180.0
-beams = 181
-rate_hz = 10.0
-range_min_m = 0.05
-range_m = 20.0
-noise_m = 0.01
-drop_out = 0.01
-mount = [0.1, 0.0, 0.0]
-[[robot.laser.blanked]]
-from_deg = 70.0
-to_deg = 80.0
-[robot.slip]
+)" + whole_laser("robot.laser") + R"([robot.slip]
 mean = 0.01
 std = 0.005
 [robot.reports]
@@ -228,7 +174,7 @@ reaction = "curious"
 legs = true
 [[movers]]
 kind = "recorded"
-file = "ROWS"
+file = "rows.csv"
 radius_m = 0.25
 offset = [0.0, 0.0]
 start_at_s = 1.0
@@ -248,5 +194,17 @@ at_s = 7.0
 for_s = 2.0
 way = [1.0, 0.5, 0.2]
 )" + kWholeZones;
+
+inline std::string whole_scenario(const std::string& map, const std::string& stick) {
+  std::string text = kWholeScenario;
+  text.replace(text.find("MAP"), 3, map);
+  return text.replace(text.find("STICK"), 5, stick);
+}
+
+inline std::vector<std::string> whole_scenarios() {
+  return {whole_scenario("yaml = \"posts.txt\"\nknown = true", "kind = \"straight\"\nforward = 0.9"),
+          whole_scenario("aria = \"posts.txt\"", "kind = \"to_goal\"\nforward = 0.9"),
+          whole_scenario("cylinders = \"posts.txt\"", "kind = \"table\"\nfile = \"stick.csv\"")};
+}
 
 }  // namespace jaywalk

@@ -5,6 +5,8 @@
 #include <optional>
 #include <string>
 
+#include "hal/shown_text.h"
+#include "hal/text_file.h"
 #include "hil/far_end/simulated_robot.h"
 #include "tests/recording/scratch.h"
 #include "tests/support/allocation_guard.h"
@@ -17,11 +19,6 @@ using namespace std::chrono_literals;
 
 [[nodiscard]] inline std::string rig_file(const std::string& name) {
   return std::string(JAYWALK_RIG) + "/drive/" + name + ".toml";
-}
-
-[[nodiscard]] inline std::string text_of(const std::filesystem::path& path) {
-  std::ifstream file(path);
-  return {std::istreambuf_iterator<char>(file), {}};
 }
 
 /// The world of the rig; nobody else is in it.
@@ -126,7 +123,7 @@ struct WiredBench : LiveBench {
                       int rate_hz = 50, StickUse steering = StickUse::kNone, TickObserver* observer = nullptr)
       : LiveBench(
             [&](const Scratch& folder) {
-              const std::string text = "rate_hz = " + std::to_string(rate_hz) + ".0\n" + text_of(rig_file(robot_name));
+              const std::string text = "rate_hz = " + std::to_string(rate_hz) + ".0\n" + text_in(rig_file(robot_name));
               RobotFile wiring = robot_in(folder.folder(), folder.write("robot.toml", text));
               wiring.panel = panel;
               wiring.setup.steering = steering;
@@ -138,9 +135,7 @@ struct WiredBench : LiveBench {
 };
 
 [[nodiscard]] inline std::string here(const Pose2& place) {
-  char words[120];
-  std::snprintf(words, sizeof words, "here %.3f %.3f %.3f", place.x, place.y, wrap_angle(place.heading));
-  return words;
+  return formatted("here %.3f %.3f %.3f", place.x, place.y, wrap_angle(place.heading));
 }
 
 /// A line whose answer takes ticks, as `here` does.

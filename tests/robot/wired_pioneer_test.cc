@@ -21,7 +21,7 @@ RobotFile file_of(const Pioneer& pioneer, const Scratch& scratch) {
   const std::string shipped = std::string(JAYWALK_EXAMPLES) + "/pioneer-p3dx-arcos";
   std::filesystem::copy(shipped + ".model.toml", scratch.folder());
   const std::string rate = "rate_hz = " + std::to_string(pioneer.rate_hz) + ".0\n";
-  const std::string path = scratch.write("robot.toml", rate + tests::text_of(shipped + ".toml"));
+  const std::string path = scratch.write("robot.toml", rate + text_in(shipped + ".toml"));
   RobotFile made = tests::robot_in(scratch.folder(), path);
   made.setup.start = pioneer.start;
   made.drive.line.device = scratch.path("board");

@@ -94,19 +94,16 @@ TEST_CASE("all beams but one at 0, or 120 degrees ahead: the robot stays where i
     if (all) std::fill_n(scan.range_m.begin(), 810, 0.0F);
     if (!all) lose(scan, 0.0, 120.0 * kDeg, 0.0F);
   };
-  double v = 0.0;
-  for (int k = 0; k < 100; ++k) v = robot.tick({std::min(speed, v + 0.02), 0.0}).permitted.v_mps;
+  robot.drive(100, speed);
   CHECK(robot.pose().x < 0.02);
 }
 
 TEST_CASE("beams that are lost while the robot drives stop it, as hard as it brakes") {
   DrivenRobot robot(at(p3dx(), 1.2), {});
-  double v = 0.0;
-  for (int k = 0; k < 100; ++k) v = robot.tick({std::min(1.2, v + 0.02), 0.0}).permitted.v_mps;
-  REQUIRE(v == 1.2);
+  REQUIRE(robot.drive(100, 1.2).permitted.v_mps == 1.2);
   robot.spoil = [](LaserScan& scan) { lose(scan, 0.0, 120.0 * kDeg, 0.0F); };
   const double from_m = robot.pose().x;
-  for (int k = 0; k < 150; ++k) v = robot.tick({std::min(1.2, v + 0.02), 0.0}).permitted.v_mps;
+  robot.drive(150, 1.2);
   CHECK(robot.speed_mps() < 0.001);
   // At most a scan's period until it is known, v^2 / 2b = 0.72 m, and the wheels' lag of 0.05 s.
   CHECK(robot.pose().x - from_m < 1.2 * (0.067 + 0.02 + 0.05) + 0.72 + 0.02);
@@ -118,8 +115,7 @@ TEST_CASE("one lost beam of a fine scanner costs nothing, nor does every third")
   robot.spoil = [every](LaserScan& scan) {
     for (std::size_t k = 405 % every; k < scan.beam_count; k += every) scan.range_m[k] = 0.0F;
   };
-  Verdict verdict;
-  for (int k = 0; k < 100; ++k) verdict = robot.tick({std::min(0.6, verdict.permitted.v_mps + 0.02), 0.0});
+  const Verdict verdict = robot.drive(100, 0.6);
   CHECK(verdict.permitted.v_mps == 0.6);
   CHECK(verdict.reasons == Reason::kNone);
 }
@@ -128,9 +124,7 @@ TEST_CASE("with lost beams beside it the robot drives on, and away from those ah
   DrivenRobot beside(at(p3dx(), 0.6), {}), before(at(p3dx(), 0.6), {});
   beside.spoil = [](LaserScan& scan) { lose(scan, 90.0 * kDeg, 30.0 * kDeg, 0.0F); };
   before.spoil = [](LaserScan& scan) { lose(scan, 0.0, 30.0 * kDeg, 0.0F); };
-  Verdict verdict;
-  for (int k = 0; k < 100; ++k) verdict = beside.tick({std::min(0.6, verdict.permitted.v_mps + 0.02), 0.0});
-  CHECK(verdict.permitted.v_mps == 0.6);
+  CHECK(beside.drive(100, 0.6).permitted.v_mps == 0.6);
   CHECK(before.tick({0.1, 0.0}).permitted.v_mps == 0.0);
   CHECK(before.tick({-0.1, 0.0}).permitted.v_mps == -0.1);
 }

@@ -1,7 +1,6 @@
 // What roll-outs count on and what the supervisor permits where nothing watches: one rule in two rooms.
-#include "planner/motion/blind_rim.h"
-
 #include "firmware/safety/blind_gaps.h"
+#include "planner/motion/robot_body.h"
 #include "tests/safety/scans.h"
 #include "tests/support/catch.h"
 
@@ -13,7 +12,7 @@ namespace {
 double taken_away(const RobotModel& robot, const Twist2& twist) {
   BlindGaps gaps(robot.laser);
   gaps.update(tests::scan_of(robot.laser, 3.0F));
-  const Watch watch(robot.footprint, robot.laser.robot_from_laser, 0.08);
+  const Watch watch(robot.footprint, 0.08);
   return std::max(watch.unwatched_mps(gaps, twist, SweptPath(twist, 0.0, 0.0)) - 0.3, 0.0);
 }
 

@@ -1,5 +1,6 @@
 #pragma once
-// A robot on a plane with one obstacle, driven by the supervisor alone: its own few formulas, none of the controller's.
+// A robot on a plane with some obstacles, driven by the supervisor alone: the simulator's rays, none of the
+// controller's formulas.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -7,6 +8,7 @@
 #include <vector>
 
 #include "firmware/safety/supervisor.h"
+#include "hal/maps/wall_map.h"
 #include "tests/safety/scans.h"
 
 namespace jaywalk {
@@ -24,42 +26,30 @@ struct Obstacle {
   Vec2 half{};            ///< half of the rectangle's sides
   double heading = 0.0;
 
+  [[nodiscard]] Transform2 map_from_it() const { return Transform2({centre.x, centre.y, heading}); }
   /// How far a ray runs until it meets the obstacle; infinity where it does not.
   [[nodiscard]] double ray(Vec2 from, Vec2 along) const {
-    constexpr double kNever_m = std::numeric_limits<double>::infinity();
-    const Vec2 to = centre - from;
-    if (radius_m > 0.0) {
-      const double nearest = std::fabs(along.x * to.y - along.y * to.x), ahead = along.x * to.x + along.y * to.y;
-      return nearest > radius_m || ahead < 0.0 ? kNever_m : ahead - std::sqrt(radius_m * radius_m - nearest * nearest);
-    }
-    const double c = std::cos(heading), s = std::sin(heading);
-    const double origin[2] = {-(c * to.x + s * to.y), -(c * to.y - s * to.x)};
-    const double way[2] = {c * along.x + s * along.y, c * along.y - s * along.x};
-    const double size[2] = {half.x, half.y};
-    double enters = 0.0, leaves = kNever_m;
-    for (int axis = 0; axis < 2; ++axis) {
-      if (std::fabs(way[axis]) < 1e-12) {
-        if (std::fabs(origin[axis]) > size[axis]) return kNever_m;
-        continue;
-      }
-      const double one = (-size[axis] - origin[axis]) / way[axis], other = (size[axis] - origin[axis]) / way[axis];
-      enters = std::max(enters, std::min(one, other)), leaves = std::min(leaves, std::max(one, other));
-    }
-    return enters < leaves ? enters : kNever_m;
+    if (radius_m > 0.0) return sim::hit_range(from, along, sim::Disc{centre, radius_m});
+    const Transform2 place = map_from_it();
+    const Vec2 corners[] = {place * half, place * Vec2{-half.x, half.y}, place * (half * -1.0),
+                            place * Vec2{half.x, -half.y}};
+    double nearest = std::numeric_limits<double>::infinity();
+    for (int k = 0; k < 4; ++k)
+      nearest = std::min(nearest, sim::hit_range(from, along, sim::WallSegment{corners[k], corners[(k + 1) % 4]}));
+    return nearest;
   }
   /// Points all along its rim, 5 mm apart or less.
   [[nodiscard]] std::vector<Vec2> rim() const {
     std::vector<Vec2> points;
-    const double c = std::cos(heading), s = std::sin(heading);
+    const Transform2 place = map_from_it();
     for (int k = 0; k < 800; ++k) {
-      const double turn = 2.0 * kPi * k / 800;
-      Vec2 p{radius_m * std::cos(turn), radius_m * std::sin(turn)};
+      Vec2 p = direction(2.0 * kPi * k / 800) * radius_m;
       if (radius_m == 0.0) {
         const double along = k % 200 / 100.0 - 1.0;
         p = k < 400 ? Vec2{half.x * along, k < 200 ? half.y : -half.y}
                     : Vec2{k < 600 ? half.x : -half.x, half.y * along};
       }
-      points.push_back({centre.x + c * p.x - s * p.y, centre.y + s * p.x + c * p.y});
+      points.push_back(place * p);
     }
     return points;
   }
@@ -81,6 +71,7 @@ class DrivenRobot {
   std::function<void(LaserScan&)> spoil = [](LaserScan&) {};
   /// Whether the loop's map has the obstacles.
   bool knows_obstacles = false;
+  double least_m = 10.0;  ///< clearance of a drive()
 
   Verdict tick(const Twist2& wanted) {
     now_ += duration_from_seconds(tick_s_);
@@ -94,6 +85,16 @@ class DrivenRobot {
                                                        .now = now_,
                                                        .known_walls = known_walls()});
     for (int k = 0; k < 10; ++k) move(verdict.permitted, 0.1 * tick_s_);
+    permitted_mps_ = verdict.permitted.v_mps;
+    return verdict;
+  }
+  /// Straight on, each wish `step_mps` above what was permitted before: a follower's ramp.
+  Verdict drive(int ticks, double speed_mps, double step_mps = 0.02) {
+    Verdict verdict;
+    for (int k = 0; k < ticks; ++k) {
+      verdict = tick({std::min(speed_mps, permitted_mps_ + step_mps), 0.0});
+      least_m = std::min(least_m, clearance_m());
+    }
     return verdict;
   }
   [[nodiscard]] const LaserScan& scan() const { return scan_; }
@@ -117,26 +118,19 @@ class DrivenRobot {
   /// Points on the rims of all obstacles, in the robot's frame.
   [[nodiscard]] std::vector<Vec2> rims() const {
     std::vector<Vec2> points;
-    const double c = std::cos(pose_.heading), s = std::sin(pose_.heading);
-    for (const Obstacle& obstacle : obstacles_) {
-      for (const Vec2 p : obstacle.rim()) {
-        const Vec2 d = p - pose_.position();
-        points.push_back({c * d.x + s * d.y, c * d.y - s * d.x});
-      }
-    }
+    const Transform2 robot_from_map(inverse(pose_));
+    for (const Obstacle& obstacle : obstacles_)
+      for (const Vec2 p : obstacle.rim()) points.push_back(robot_from_map * p);
     return points;
   }
   void sweep() {
     scan_.stamp = now_;
     ++scan_.sequence;
-    const Pose2& mount = model_.laser.robot_from_laser;
-    const double c = std::cos(pose_.heading), s = std::sin(pose_.heading);
-    const Vec2 laser{pose_.x + c * mount.x - s * mount.y, pose_.y + s * mount.x + c * mount.y};
+    const Pose2 laser = pose_ * model_.laser.robot_from_laser;
     for (std::size_t k = 0; k < scan_.beam_count; ++k) {
-      const double way = pose_.heading + mount.heading + scan_.angle_rad(k);
       double range = std::numeric_limits<double>::infinity();
       for (const Obstacle& obstacle : obstacles_)
-        range = std::min(range, obstacle.ray(laser, {std::cos(way), std::sin(way)}));
+        range = std::min(range, obstacle.ray(laser.position(), direction(laser.heading + scan_.angle_rad(k))));
       scan_.range_m[k] = static_cast<float>(range);
     }
     spoil(scan_);
@@ -146,16 +140,15 @@ class DrivenRobot {
     twist_.v_mps += std::clamp((wanted.v_mps - twist_.v_mps) * step_s / 0.05, -most, most);
     const double most_turn = most / model_.footprint.circumscribed_radius_m();
     twist_.w_radps += std::clamp((wanted.w_radps - twist_.w_radps) * step_s / 0.05, -most_turn, most_turn);
-    const double heading = pose_.heading + 0.5 * twist_.w_radps * step_s;
-    pose_ = {pose_.x + twist_.v_mps * step_s * std::cos(heading), pose_.y + twist_.v_mps * step_s * std::sin(heading),
-             pose_.heading + twist_.w_radps * step_s};
+    const Vec2 way = direction(pose_.heading + 0.5 * twist_.w_radps * step_s) * (twist_.v_mps * step_s);
+    pose_ = {pose_.x + way.x, pose_.y + way.y, pose_.heading + twist_.w_radps * step_s};
   }
 
   RobotModel model_;
   std::vector<Obstacle> obstacles_;
   std::vector<Vec2> known_;  ///< in the robot's frame
   Supervisor supervisor_;
-  double tick_s_;
+  double tick_s_, permitted_mps_ = 0.0;
   Time now_ = time_from_seconds(1.0);
   LaserScan scan_;
   WheelState wheels_;

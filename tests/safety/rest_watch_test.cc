@@ -56,11 +56,10 @@ struct Standing {
   void look() {
     next_scan_s = now_s + 0.08;
     if (covered) return;
-    const std::uint32_t sequence = scan.sequence;
     Pose2 eye = pose * model.laser.robot_from_laser;
     eye.heading += shakes_rad * std::sin(40.0 * now_s);
     trials::sweep(room, eye, model.laser, scan);
-    scan.sequence = sequence + 1;
+    ++scan.sequence;
     scan.stamp = time_from_seconds(now_s);
     for (std::size_t k = 0; k < scan.beam_count; ++k) scan.range_m[k] += static_cast<float>(noise_m * normal(engine));
   }

@@ -26,14 +26,19 @@ LaserScan walls(double ahead_m, double left_m, double noise_m, std::mt19937_64& 
   return scan;
 }
 
+/// Ready to match newer scans against this one.
+ScanPair kept_of(const LaserScan& scan) {
+  ScanPair pair{Pose2{}};
+  REQUIRE(pair.usable(scan));
+  pair.keep(scan);
+  return pair;
+}
+
 /// Standard deviations of the match of two scans, the newer from 5 cm nearer to the wall ahead: ahead and aside, m.
 Vec2 claimed_std_m(double left_m, std::uint64_t seed) {
   std::mt19937_64 engine(seed);
   const LaserScan kept = walls(1.5, left_m, 0.01, engine), now = walls(1.45, left_m, 0.01, engine);
-  ScanPair pair{Pose2{}};
-  REQUIRE(pair.usable(kept));
-  pair.keep(kept);
-  const Eigen::Matrix3d covariance = pair.fit(now, {}).information.inverse();
+  const Eigen::Matrix3d covariance = kept_of(kept).fit(now, {}).information.inverse();
   return {std::sqrt(covariance(0, 0)), std::sqrt(covariance(1, 1))};
 }
 
@@ -74,9 +79,7 @@ TEST_CASE("among posts no match is much more likely than the truth") {
     const std::vector<trials::Walker> world = posts(engine);
     const Pose2 moved{0.015, 0.0, seed % 2 == 0 ? 0.05 : -0.05};
     const LaserScan kept = among(world, {}, 0.01, engine), now = among(world, moved, 0.01, engine);
-    ScanPair pair{Pose2{}};
-    REQUIRE(pair.usable(kept));
-    pair.keep(kept);
+    const ScanPair pair = kept_of(kept);
     const ScanPair::Fit fit = pair.fit(now, moved);
     CHECK(fit.tells());
     const ScanPair::Errors best = pair.errors(now, fit.kept_from_now), truth = pair.errors(now, moved);
@@ -90,10 +93,7 @@ TEST_CASE("a round surface is where it was: its bend is no error") {
   // least squares the middle is off by a third of that (measured up to 7 mm where it is seen at a slant).
   std::mt19937_64 engine(1);
   const LaserScan scan = among({{{2.0, 0.0}, {}, 0.5}}, {}, 0.0, engine);
-  ScanPair pair{Pose2{}};
-  REQUIRE(pair.usable(scan));
-  pair.keep(scan);
-  const ScanPair::Errors errors = pair.errors(scan, {});
+  const ScanPair::Errors errors = kept_of(scan).errors(scan, {});
   const auto compared =
       std::count_if(errors.begin(), errors.end(), [](float e) { return !std::isnan(e) && e != 0.0F; });
   CHECK(compared > 4);
@@ -104,9 +104,7 @@ TEST_CASE("a round surface is where it was: its bend is no error") {
 TEST_CASE("a scan from 3 cm nearer to a wall leaves 3 cm at each point of it, wherever along the wall it was taken") {
   std::mt19937_64 engine(1);
   const LaserScan kept = walls(2.0, 100.0, 0.0, engine), now = walls(1.97, 100.0, 0.0, engine);
-  ScanPair pair{Pose2{}};
-  REQUIRE(pair.usable(kept));
-  pair.keep(kept);
+  const ScanPair pair = kept_of(kept);
   int compared = 0;
   for (const double aside_m : {0.0, 0.1}) {
     const ScanPair::Errors still = pair.errors(now, {0.0, aside_m, 0.0}),

@@ -89,8 +89,7 @@ class TrialRobot {
   [[nodiscard]] double now_s() const { return now_s_; }
   [[nodiscard]] bool struck() const { return fault_ != Fault::kNone && now_s_ > strikes_s_; }
   [[nodiscard]] bool accused() const {
-    return has(reasons_, Reason::kMotionMismatch) || has(reasons_, Reason::kWheelsDisobey) ||
-           has(reasons_, Reason::kScanFrozen);
+    return has(reasons_, Reason::kMotionMismatch | Reason::kWheelsDisobey | Reason::kScanFrozen);
   }
   [[nodiscard]] Reason reasons() const { return reasons_; }
   /// What really moves.
@@ -164,10 +163,9 @@ class TrialRobot {
     const double gain = base_.wheels_go * (geared ? gain_ : 1.0) * (1.0 - setting_.slip_mean);
     const double left = left_mps_ * gain * (1.0 - left_slip_), right = right_mps_ * gain * (1.0 - right_slip_);
     truth_ = {0.5 * (left + right), (right - left) / track};
-    const double heading = pose_.heading + 0.5 * truth_.w_radps * kStep_s;
-    pose_ = {pose_.x + truth_.v_mps * kStep_s * std::cos(heading), pose_.y + truth_.v_mps * kStep_s * std::sin(heading),
-             pose_.heading + truth_.w_radps * kStep_s};
-    room_.move(kStep_s, {pose_.x, pose_.y});
+    const Vec2 way = direction(pose_.heading + 0.5 * truth_.w_radps * kStep_s) * (truth_.v_mps * kStep_s);
+    pose_ = {pose_.x + way.x, pose_.y + way.y, pose_.heading + truth_.w_radps * kStep_s};
+    room_.move(kStep_s, pose_.position());
     left_rad_ += left_mps_ * kStep_s / radius;
     right_rad_ += right_mps_ * kStep_s / radius;
     if (++steps_ % std::lround(base_.report_every_s / kStep_s) == 0) read_wheels();
@@ -196,12 +194,8 @@ class TrialRobot {
     next_scan_s_ = now_s_ + 1.0 / setting_.model.laser.rate_hz;
     Pose2 mount = setting_.model.laser.robot_from_laser;
     mount.heading += mount_turned();
-    const double c = std::cos(pose_.heading), s = std::sin(pose_.heading);
-    const Pose2 eye{pose_.x + c * mount.x - s * mount.y, pose_.y + s * mount.x + c * mount.y,
-                    pose_.heading + mount.heading};
-    const std::uint32_t sequence = measured_.sequence;
-    sweep(room_, eye, setting_.model.laser, measured_);
-    measured_.sequence = sequence + 1;
+    ++measured_.sequence;
+    sweep(room_, pose_ * mount, setting_.model.laser, measured_);
     measured_.stamp = time_from_seconds(now_s_);
     const bool scaled = struck() && (fault_ == Fault::kRangesFar || fault_ == Fault::kRangesShort);
     for (std::size_t k = 0; k < measured_.beam_count; ++k) {
@@ -210,11 +204,10 @@ class TrialRobot {
       const double noisy = range + (setting_.noise_m + setting_.noise_per_m * range) * normal();
       range = static_cast<float>(std::floor((scaled ? gain_ : 1.0) * noisy * 1000.0 + 0.5) / 1000.0);
     }
-    if (struck() && frozen()) {
+    if (struck() && frozen())
       stick();
-    } else {
+    else
       before_ = measured_;
-    }
   }
   void stick() {
     const auto shaken = static_cast<std::size_t>(uniform(engine_, 0.0, measured_.beam_count - 1.0));

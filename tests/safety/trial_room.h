@@ -1,5 +1,5 @@
 #pragma once
-// A room with furniture and people for random trials, and what a laser sees of it: formulas of its own.
+// A room with furniture and people for random trials, and what a laser sees of it by the simulator's rays.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "hal/maps/wall_map.h"
 #include "tests/safety/scans.h"
 
 namespace jaywalk::trials {
@@ -17,9 +18,7 @@ inline double uniform(Engine& engine, double low, double high) {
   return std::uniform_real_distribution<double>(low, high)(engine);
 }
 
-struct Wall {
-  Vec2 from, to;
-};
+using Wall = sim::WallSegment;
 /// A pedestrian, round, who walks straight and turns where the room ends.
 struct Walker {
   Vec2 centre, velocity;
@@ -29,19 +28,9 @@ struct Walker {
 /// Distance that a ray runs; infinity where it meets nothing.
 [[nodiscard]] inline double range(std::span<const Wall> walls, std::span<const Walker> walkers, Vec2 from, Vec2 way) {
   double nearest = std::numeric_limits<double>::infinity();
-  for (const Wall& wall : walls) {
-    const Vec2 along = wall.to - wall.from, to = wall.from - from;
-    const double across = way.x * along.y - way.y * along.x;
-    if (std::fabs(across) < 1e-12) continue;
-    const double r = (to.x * along.y - to.y * along.x) / across, share = (to.x * way.y - to.y * way.x) / across;
-    if (r > 0.0 && share >= 0.0 && share <= 1.0) nearest = std::min(nearest, r);
-  }
-  for (const Walker& walker : walkers) {
-    const Vec2 to = walker.centre - from;
-    const double ahead = to.x * way.x + to.y * way.y, aside = way.x * to.y - way.y * to.x;
-    const double inside = walker.radius_m * walker.radius_m - aside * aside;
-    if (ahead > 0.0 && inside > 0.0) nearest = std::min(nearest, ahead - std::sqrt(inside));
-  }
+  for (const Wall& wall : walls) nearest = std::min(nearest, sim::hit_range(from, way, wall));
+  for (const Walker& walker : walkers)
+    nearest = std::min(nearest, sim::hit_range(from, way, sim::Disc{walker.centre, walker.radius_m}));
   return nearest;
 }
 
@@ -54,15 +43,13 @@ class Room {
     const int pieces = static_cast<int>(uniform(engine, 3.0, 10.0));
     for (int k = 0; k < pieces; ++k) {
       const Vec2 place{uniform(engine, -half_.x, half_.x), uniform(engine, -half_.y, half_.y)};
-      if (std::hypot(place.x, place.y) < 1.7) continue;  // the robot starts there
+      if (norm(place) < 1.7) continue;  // the robot starts there
       add_box(place, {uniform(engine, 0.1, 0.6), uniform(engine, 0.1, 0.4)}, uniform(engine, -kPi, kPi));
     }
     for (int k = 0; k < people; ++k) {
       const double way = uniform(engine, -kPi, kPi), speed = uniform(engine, 0.0, 1.3);
-      const double place = uniform(engine, -kPi, kPi);
-      walkers_.push_back({{1.6 * std::cos(place), 1.6 * std::sin(place)},
-                          {speed * std::cos(way), speed * std::sin(way)},
-                          uniform(engine, 0.15, 0.3)});
+      const Vec2 place = direction(uniform(engine, -kPi, kPi)) * 1.6;
+      walkers_.push_back({place, direction(way) * speed, uniform(engine, 0.15, 0.3)});
     }
   }
 
@@ -70,10 +57,8 @@ class Room {
   void move(double step_s, Vec2 robot) {
     for (Walker& walker : walkers_) {
       const Vec2 to_robot = robot - walker.centre;
-      const bool approaches = to_robot.x * walker.velocity.x + to_robot.y * walker.velocity.y > 0.0;
-      if (approaches && std::hypot(to_robot.x, to_robot.y) < 0.7 + walker.radius_m) {
-        walker.velocity = walker.velocity * -1.0;
-      }
+      const bool approaches = dot(to_robot, walker.velocity) > 0.0;
+      if (approaches && norm(to_robot) < 0.7 + walker.radius_m) walker.velocity = walker.velocity * -1.0;
       walker.centre = walker.centre + walker.velocity * step_s;
       const Vec2 in_room = turned(walker.centre, -turn_);
       Vec2 way = turned(walker.velocity, -turn_);
@@ -85,9 +70,7 @@ class Room {
   [[nodiscard]] double range(Vec2 from, Vec2 way) const { return trials::range(walls_, walkers_, from, way); }
 
  private:
-  static Vec2 turned(Vec2 v, double by) {
-    return {std::cos(by) * v.x - std::sin(by) * v.y, std::sin(by) * v.x + std::cos(by) * v.y};
-  }
+  static Vec2 turned(Vec2 v, double by) { return Transform2({0.0, 0.0, by}).rotate(v); }
   void add_box(Vec2 centre, Vec2 half, double heading) {
     const Vec2 corner[4] = {{half.x, half.y}, {-half.x, half.y}, {-half.x, -half.y}, {half.x, -half.y}};
     for (int k = 0; k < 4; ++k)
@@ -105,9 +88,8 @@ class Room {
 inline void sweep(const Room& room, const Pose2& map_from_laser, const LaserModel& laser, LaserScan& scan) {
   tests::lay_beams(scan, laser);
   for (std::size_t k = 0; k < scan.beam_count; ++k) {
-    const double way = map_from_laser.heading + scan.angle_rad(k);
-    scan.range_m[k] =
-        static_cast<float>(room.range({map_from_laser.x, map_from_laser.y}, {std::cos(way), std::sin(way)}));
+    const Vec2 way = direction(map_from_laser.heading + scan.angle_rad(k));
+    scan.range_m[k] = static_cast<float>(room.range(map_from_laser.position(), way));
   }
 }
 

@@ -80,7 +80,7 @@ TEST_CASE("a wall that ends where sight does is continued, one that would cut th
     (void)robot.tick({});
     BlindGaps gaps(model.laser);
     gaps.update(robot.scan());
-    UnseenWalls walls(model.footprint, model.laser.robot_from_laser, 6.0);
+    UnseenWalls walls(model.footprint, 6.0);
     walls.update(robot.scan(), gaps, {});
     return std::vector<Vec2>(walls.points().begin(), walls.points().end());
   };

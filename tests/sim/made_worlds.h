@@ -1,10 +1,13 @@
 #pragma once
 // Small worlds whose numbers can be worked by hand.
+#include <functional>
 #include <string>
+#include <vector>
 
-#include "hal/sim/scenario.h"
+#include "hal/sim/simulation.h"
 #include "hal/sim/walls.h"
 #include "tests/recording/scratch.h"
+#include "tests/support/catch.h"
 #include "tests/support/text.h"
 
 namespace jaywalk::sim {
@@ -57,6 +60,33 @@ inline Scenario parsed(const std::string& text) { return load_scenario(folder().
 
 inline std::string refused(const std::string& text) {
   return refusal_of([&text] { return parsed(text); });
+}
+
+/// A text, and what its refusal must hold.
+struct Bad {
+  std::string text, place;
+};
+
+/// Each is refused with its cause and a remedy; `refuse` gives a text's refusal.
+template <class Refuse>
+void check_refused(const std::vector<Bad>& cases, const Refuse& refuse) {
+  for (const Bad& bad : cases) {
+    const std::string message = refuse(bad.text);
+    INFO(bad.text << "\n-> " << message);
+    CHECK(holds(message, bad.place));
+    CHECK(holds(message, "; "));
+  }
+}
+
+/// Drives at 50 Hz with fixed wheel speeds from the present time on.
+inline void drive(Simulation& sim, double left, double right, double seconds, const std::function<void()>& look = {}) {
+  const Hal hal = sim.hal();
+  const Time end = hal.clock.now() + duration_from_seconds(seconds);
+  while (hal.clock.now() < end) {
+    hal.drive.command({hal.clock.now(), left, right});
+    hal.clock.sleep_until(hal.clock.now() + duration_from_seconds(0.02));
+    if (look) look();
+  }
 }
 
 }  // namespace jaywalk::sim

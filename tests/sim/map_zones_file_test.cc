@@ -27,19 +27,18 @@ TEST_CASE("zones are read as they stand in the file") {
 }
 
 TEST_CASE("what is no polygon is refused with its line and a remedy") {
-  CHECK(
-      holds(message(keep_out("[[1, 1], [2, 1]]")), "s.toml:8: zones.points has 2 points; write [[x, y], [x, y], ...]"));
-  CHECK(holds(message(keep_out("[[1, 1], [2, 1], [nan, 2]]")), "zones.points holds what is no number"));
-  CHECK(holds(message(keep_out("[[1, 1], [2, 1], [2, 2, 0]]")), "zones.points has 3 elements"));
-  CHECK(holds(message(keep_out("[[1, 1], [2, 1], [2e6, 2]]")), "zones.points lies at 2e+06 m"));
-  CHECK(holds(message(keep_out("[[1, 1], [2, 1], [3, 1]]")), "zones.points encloses no area"));
-  CHECK(holds(message(keep_out("[[1, 1], [2, 2], [2, 1], [1, 2.5]]")),
-              "zones.points crosses itself: side 1 meets side 3; give the corners in order"));
-  CHECK(holds(message(keep_out("3")), "zones.points is not an array"));
-  CHECK(holds(message("[[zones]]\nkind = \"lake\"\npoints = [[1, 1], [2, 1], [2, 2]]\n"),
-              "choose one of keep_out, speed"));
-  CHECK(holds(message("[[zones]]\nkind = \"speed\"\npoints = [[1, 1], [2, 1], [2, 2]]\n"), "speed_mps is missing"));
-  CHECK(holds(message(keep_out("[[1, 1], [2, 1], [2, 2]]\nspeed_mps = 1")), "zones.speed_mps is not a known key"));
+  check_refused({{keep_out("[[1, 1], [2, 1]]"), "s.toml:8: zones.points has 2 points; write [[x, y], [x, y], ...]"},
+                 {keep_out("[[1, 1], [2, 1], [nan, 2]]"), "zones.points holds what is no number"},
+                 {keep_out("[[1, 1], [2, 1], [2, 2, 0]]"), "zones.points has 3 elements"},
+                 {keep_out("[[1, 1], [2, 1], [2e6, 2]]"), "zones.points lies at 2e+06 m"},
+                 {keep_out("[[1, 1], [2, 1], [3, 1]]"), "zones.points encloses no area"},
+                 {keep_out("[[1, 1], [2, 2], [2, 1], [1, 2.5]]"),
+                  "zones.points crosses itself: side 1 meets side 3; give the corners in order"},
+                 {keep_out("3"), "zones.points is not an array"},
+                 {"[[zones]]\nkind = \"lake\"\npoints = [[1, 1], [2, 1], [2, 2]]\n", "choose one of keep_out, speed"},
+                 {"[[zones]]\nkind = \"speed\"\npoints = [[1, 1], [2, 1], [2, 2]]\n", "speed_mps is missing"},
+                 {keep_out("[[1, 1], [2, 1], [2, 2]]\nspeed_mps = 1"), "zones.speed_mps is not a known key"}},
+                message);
 }
 
 TEST_CASE("too many zones or corners, and zones of places far from each other, are refused") {

@@ -15,17 +15,6 @@ using namespace jaywalk::sim;
 
 namespace {
 
-/// Drives at 50 Hz with fixed wheel speeds from the present time on.
-void drive(Simulation& sim, double left, double right, double seconds, const std::function<void()>& look = {}) {
-  Hal hal = sim.hal();
-  const Time end = hal.clock.now() + duration_from_seconds(seconds);
-  while (hal.clock.now() < end) {
-    hal.drive.command({hal.clock.now(), left, right});
-    hal.clock.sleep_until(hal.clock.now() + duration_from_seconds(0.02));
-    if (look) look();
-  }
-}
-
 /// Everything that a run could show, as numbers: truth, scans, wheels, fixes.
 std::vector<double> story(const Scenario& scenario, std::uint64_t seed) {
   Simulation sim(scenario, seed);

@@ -57,15 +57,16 @@ TEST_CASE("a table's rows hold until the next, and a hand comes late by its dela
 }
 
 TEST_CASE("a table that is none is refused with its line") {
-  const auto refused = [&](const char* text) {
-    const auto file = folder().write("stick.csv", text);
-    return refusal_of([&] { ScriptedStick({.kind = StickKind::kTable, .file = file}, with_goal({}), 1); });
-  };
-  CHECK(holds(refused("t,f,l\n"), "stick.csv:1: does not begin with t_s,forward,left"));
-  CHECK(holds(refused("t_s,forward,left\n0,1,0\n0,1,0\n"), "stick.csv:3: "));
-  CHECK(holds(refused("t_s,forward,left\n0,1.5,0\n"), "stick.csv:2: "));
-  CHECK(holds(refused("t_s,forward,left\n0,1\n"), "stick.csv:2: "));
-  CHECK(holds(refused("t_s,forward,left\n"), "holds no row"));
+  check_refused(
+      {{"t,f,l\n", "stick.csv:1: does not begin with t_s,forward,left"},
+       {"t_s,forward,left\n0,1,0\n0,1,0\n", "stick.csv:3: "},
+       {"t_s,forward,left\n0,1.5,0\n", "stick.csv:2: "},
+       {"t_s,forward,left\n0,1\n", "stick.csv:2: "},
+       {"t_s,forward,left\n", "holds no row"}},
+      [](const std::string& text) {
+        const auto file = folder().write("stick.csv", text);
+        return refusal_of([&] { ScriptedStick({.kind = StickKind::kTable, .file = file}, with_goal({}), 1); });
+      });
 }
 
 TEST_CASE("a hand trembles as much as it is said to, the same with the same seed, and not while it rests") {

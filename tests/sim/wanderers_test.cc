@@ -19,15 +19,13 @@ using Movers = std::vector<MoverTruth>;
 
 /// Lets the robot stand, and shows the movers before and after each of their steps.
 void watch(Simulation& sim, double seconds, const std::function<void(const Movers&, const Movers&)>& look) {
-  Hal hal = sim.hal();
   const auto now = [&] { return Movers(sim.truth().movers.begin(), sim.truth().movers.end()); };
   Movers before = now();
-  for (int k = 1; k <= static_cast<int>(seconds / kTick + 0.5); ++k) {
-    hal.clock.sleep_until(time_from_seconds(k * kTick));
+  drive(sim, 0.0, 0.0, seconds, [&] {
     const Movers after = now();
     look(before, after);
     before = after;
-  }
+  });
 }
 
 bool walks(const MoverTruth& m) { return norm(m.velocity) > 0.0; }
@@ -82,17 +80,17 @@ bool robot_ahead(const Simulation& sim, const MoverTruth& m, Slack slack) {
   return false;
 }
 
-Scenario crowded_room(int count) {
+Scenario crowded_room(const WanderSpec& spec) {
   Scenario scenario = in_room();
   scenario.model.laser.beams = 2;  // nobody looks
-  scenario.wanderers.push_back({.count = count});
+  scenario.wanderers.push_back(spec);
   return scenario;
 }
 
 }  // namespace
 
 TEST_CASE("movers walk at constant speed, straight, and turn only while they stand, at 1 rad/s") {
-  Simulation sim(crowded_room(6), 1);
+  Simulation sim(crowded_room({.count = 6}), 1);
   watch(sim, 300.0, [](const Movers& before, const Movers& after) {
     for (std::size_t k = 0; k < after.size(); ++k) {
       const Vec2 moved = after[k].position - before[k].position;
@@ -109,7 +107,7 @@ TEST_CASE("movers walk at constant speed, straight, and turn only while they sta
 }
 
 TEST_CASE("a mover stops only when something is ahead, and is forced only by the robot alone") {
-  Simulation sim(crowded_room(6), 1);
+  Simulation sim(crowded_room({.count = 6}), 1);
   int stops = 0, forced = 0;
   watch(sim, 600.0, [&](const Movers& before, const Movers& after) {
     for (std::size_t k = 0; k < after.size(); ++k) {
@@ -136,7 +134,7 @@ TEST_CASE("a mover stops only when something is ahead, and is forced only by the
 }
 
 TEST_CASE("a mover turns to a heading that is free: after the turn it walks") {
-  Simulation sim(crowded_room(1), 4);
+  Simulation sim(crowded_room({.count = 1}), 4);
   bool turned = false;
   int turns = 0;
   watch(sim, 300.0, [&](const Movers& before, const Movers& after) {
@@ -153,7 +151,7 @@ TEST_CASE("a mover turns to a heading that is free: after the turn it walks") {
 TEST_CASE("a mover that would run into the robot beside it stays where it is, and that is a bump") {
   // The robot's narrow nose stands 1 mm from the mover's edge at 60 degrees to its heading, outside the zone; a step of
   // 8 mm would close the gap by 4 mm.
-  const Scenario scenario = crowded_room(1);
+  const Scenario scenario = crowded_room({.count = 1});
   const Walls walls(load_aria_map(scenario.map_file));
   const FreeGrid grid(walls, 0.19, scenario.start.position(), scenario.goal);
   Wanderers wanderers({scenario, walls, grid}, 2);
@@ -209,18 +207,15 @@ TEST_CASE("movers begin apart from walls, from each other, from the robot and fr
 TEST_CASE("spontaneous turns come as often as asked: 0.5 a second of walking") {
   // A stop costs one step to choose and 1.6 / 50 s to turn on average: 1000 / (2.0 + 0.02 + 0.05) = 483 stops,
   // with a standard deviation of about 22.
-  Scenario scenario = in_room();
-  scenario.model.laser.beams = 2;
-  scenario.wanderers.push_back(
-      {.count = 1, .speed_mps = 0.001, .radius_m = 0.27, .turn_rate_radps = 50.0, .spontaneous_turns_hz = 0.5});
-  Simulation sim(scenario, 3);
+  Simulation sim(crowded_room({.count = 1, .speed_mps = 0.001, .turn_rate_radps = 50.0, .spontaneous_turns_hz = 0.5}),
+                 3);
   int stops = 0;
   watch(sim, 1000.0, [&](const Movers& before, const Movers& after) { stops += walks(before[0]) && !walks(after[0]); });
   CHECK(stops == Approx(483).margin(66));
 }
 
 TEST_CASE("too many movers for the room are refused") {
-  const Scenario scenario = crowded_room(200);
+  const Scenario scenario = crowded_room({.count = 200});
   const std::string message = refusal_of([&] { const Simulation sim(scenario, 1); });
   CHECK(holds(message, "room.map: no room for mover"));
 }

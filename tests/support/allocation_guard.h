@@ -4,17 +4,16 @@
 namespace jaywalk {
 
 /// Counts what this thread asks of the heap while the guard lives: malloc, calloc, realloc, free, the
-/// aligned ones, and with them every operator new and delete. What the loop promises is zero.
-///
-/// Read `calls` into a variable before checking it: the check macros allocate themselves.
+/// aligned ones, and with them every operator new and delete. Read `calls` into a variable before checking
+/// it: the check macros allocate themselves.
 ///
 ///   const AllocationGuard guard;
 ///   for (int k = 0; k < 1000; ++k) loop.tick(now += kPeriod);
 ///   const auto calls = guard.calls();
 ///   CHECK(calls == 0);
 ///
-/// How: in a plain build this library's own malloc family stands before glibc's; under the address
-/// and thread sanitizers, which bring their own heap, their hooks count instead.
+/// In a plain build this library's malloc family stands before glibc's; under the address and thread sanitizers, which
+/// bring their own heap, their hooks count.
 /// Thread: guards count the thread that reads them; they nest.
 class AllocationGuard {
  public:

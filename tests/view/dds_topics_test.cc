@@ -15,24 +15,32 @@ using namespace jaywalk;
 
 namespace {
 
+/// A participant at the other end, over loopback alone.
+struct FarEnd {
+  static std::uint32_t domain_on_loopback() {
+    ::setenv("CYCLONEDDS_URI", "file://" JAYWALK_LOOPBACK, 1);
+    return static_cast<std::uint32_t>(::getpid() % 200);
+  }
+  ~FarEnd() { dds_delete(participant); }
+
+  std::uint32_t domain = domain_on_loopback();
+  dds_entity_t participant = dds_create_participant(domain, nullptr, nullptr);
+};
+
 /// Says a pose until one is taken, or, where none must be, until the far end has seen a topic of ours and said it ten
 /// times more.
 template <class Pose>
 std::optional<dds::PoseOrder> taken_of(bool takes_goals, const dds_topic_descriptor_t& type, const char* name,
                                        Pose said) {
-  ::setenv("CYCLONEDDS_URI", "file://" JAYWALK_LOOPBACK, 1);
-  const auto domain = static_cast<std::uint32_t>(::getpid() % 200);
-  dds::DdsTopics topics(domain, takes_goals);
-  const dds_entity_t far_end = dds_create_participant(domain, nullptr, nullptr);
-  dds_qos_t* const qos = dds_create_qos();
-  dds_qset_reliability(qos, DDS_RELIABILITY_RELIABLE, DDS_SECS(1));
+  const FarEnd far_end;
+  dds::DdsTopics topics(far_end.domain, takes_goals);
+  const dds::Qos qos = dds::qos_keeping(1, true);
   const auto topic = [&](const dds_topic_descriptor_t& kind, const char* at) {
-    return dds_create_topic(far_end, &kind, at, nullptr, nullptr);
+    return dds_create_topic(far_end.participant, &kind, at, nullptr, nullptr);
   };
-  const dds_entity_t writer = dds_create_writer(far_end, topic(type, name), qos, nullptr);
-  const dds_entity_t reader =
-      dds_create_reader(far_end, topic(sensor_msgs_msg_dds__LaserScan__desc, "rt/scan"), qos, nullptr);
-  dds_delete_qos(qos);
+  const dds_entity_t writer = dds_create_writer(far_end.participant, topic(type, name), qos.get(), nullptr);
+  const dds_entity_t reader = dds_create_reader(
+      far_end.participant, topic(sensor_msgs_msg_dds__LaserScan__desc, "rt/scan"), qos.get(), nullptr);
   REQUIRE(writer > 0);
   REQUIRE(reader > 0);
   char frame[] = "map";
@@ -46,7 +54,6 @@ std::optional<dds::PoseOrder> taken_of(bool takes_goals, const dds_topic_descrip
     dds_get_subscription_matched_status(reader, &matched);
     said_after += !takes_goals && matched.current_count > 0 ? 1 : 0;
   }
-  dds_delete(far_end);
   return taken;
 }
 
@@ -55,16 +62,33 @@ std::optional<dds::PoseOrder> goal_taken(bool takes_goals) {
                   geometry_msgs_msg_dds__PoseStamped_{});
 }
 
+/// Publishes a message again and again until it has come, for ten minutes; `look` checks what came.
+template <class Message, class Look>
+void check_comes(const dds_topic_descriptor_t& type, const std::string& space, const std::string& topic,
+                 const std::string& message, const Look& look) {
+  const FarEnd far_end;
+  dds::DdsTopics topics(far_end.domain, false, space);
+  const dds_entity_t reader = dds::make_reader(far_end.participant, type, space + topic, dds::qos_keeping(1, true));
+  bool came = false;
+  for (int looks = 0; looks < 30'000 && !came; ++looks) {
+    CHECK(topics.publish(topic, message));
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    dds::take_all<Message>(reader, [&](const Message& told, const auto&) {
+      came = true;
+      look(told);
+    });
+  }
+  CHECK(came);
+}
+
 }  // namespace
 
 TEST_CASE("a run's topics lie below the namespace that they are given") {
-  ::setenv("CYCLONEDDS_URI", "file://" JAYWALK_LOOPBACK, 1);
-  const auto domain = static_cast<std::uint32_t>(::getpid() % 200);
-  const dds::DdsTopics topics(domain, false, "/jaywalk");
-  const dds_entity_t far_end = dds_create_participant(domain, nullptr, nullptr);
+  const FarEnd far_end;
+  const dds::DdsTopics topics(far_end.domain, false, "/jaywalk");
   const auto publishers_of = [&](const char* topic, int most_looks) {
     const dds_entity_t reader =
-        dds::make_reader(far_end, sensor_msgs_msg_dds__LaserScan__desc, topic, dds::qos_keeping(1, false));
+        dds::make_reader(far_end.participant, sensor_msgs_msg_dds__LaserScan__desc, topic, dds::qos_keeping(1, false));
     dds_subscription_matched_status_t matched{};
     for (int looks = 0; looks < most_looks && matched.current_count == 0; ++looks) {
       std::this_thread::sleep_for(std::chrono::milliseconds(20));
@@ -74,63 +98,35 @@ TEST_CASE("a run's topics lie below the namespace that they are given") {
   };
   CHECK(publishers_of("/jaywalk/scan", 30'000) == 1);  // for ten minutes
   CHECK(publishers_of("/scan", 100) == 0);
-  dds_delete(far_end);
 }
 
 TEST_CASE("the scans of a second scanner have a topic of their own") {
-  ::setenv("CYCLONEDDS_URI", "file://" JAYWALK_LOOPBACK, 1);
-  const auto domain = static_cast<std::uint32_t>(::getpid() % 200);
-  dds::DdsTopics topics(domain, false, "/jaywalk");
-  const dds_entity_t far_end = dds_create_participant(domain, nullptr, nullptr);
-  const dds_entity_t reader =
-      dds::make_reader(far_end, sensor_msgs_msg_dds__LaserScan__desc, "/jaywalk/scan_rear", dds::qos_keeping(1, true));
   LaserScan scan;
   scan.beam_count = 3;
   REQUIRE(dds::DdsTopics::passes("/scan_rear"));
   REQUIRE_FALSE(dds::DdsTopics::passes("/scanned"));
-  void* samples[1] = {nullptr};
-  dds_sample_info_t info[1];
-  dds_return_t taken = 0;
-  for (int looks = 0; looks < 30'000 && taken == 0; ++looks) {
-    CHECK(topics.publish("/scan_rear", exchange::laser_scan(scan, Time{}, "laser_rear")));
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));
-    taken = dds_take(reader, samples, info, 1, 1);
-  }
-  REQUIRE(taken == 1);
-  const auto& came = *static_cast<const sensor_msgs_msg_dds__LaserScan_*>(samples[0]);
-  CHECK(std::string(came.header_.frame_id_) == "laser_rear");
-  CHECK(came.ranges_._length == 3);
-  dds_return_loan(reader, samples, taken);
-  dds_delete(far_end);
+  check_comes<sensor_msgs_msg_dds__LaserScan_>(sensor_msgs_msg_dds__LaserScan__desc, "/jaywalk", "/scan_rear",
+                                               exchange::laser_scan(scan, Time{}, "laser_rear"), [](const auto& told) {
+                                                 CHECK(std::string(told.header_.frame_id_) == "laser_rear");
+                                                 CHECK(told.ranges_._length == 3);
+                                               });
 }
 
 TEST_CASE("/joint_states on DDS has both wheels, their angles and speeds") {
-  ::setenv("CYCLONEDDS_URI", "file://" JAYWALK_LOOPBACK, 1);
-  const auto domain = static_cast<std::uint32_t>(::getpid() % 200);
-  dds::DdsTopics topics(domain, false);
-  const dds_entity_t far_end = dds_create_participant(domain, nullptr, nullptr);
-  const dds_entity_t reader =
-      dds::make_reader(far_end, sensor_msgs_msg_dds__JointState__desc, "/joint_states", dds::qos_keeping(1, true));
   WheelState wheels;
   wheels.left_rad = 1.5, wheels.right_rad = -2.5, wheels.left_radps = 0.25, wheels.right_radps = 4.0;
-  bool came = false;
-  for (int looks = 0; looks < 30'000 && !came; ++looks) {
-    CHECK(topics.publish("/joint_states", view::joint_states(wheels, Time{std::chrono::milliseconds(2250)})));
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));
-    dds::take_all<sensor_msgs_msg_dds__JointState_>(reader, [&](const auto& told, const auto&) {
-      came = true;
-      CHECK(told.header_.stamp_.sec_ == 2);
-      CHECK(told.header_.stamp_.nanosec_ == 250'000'000);
-      REQUIRE((told.name_._length == 2 && told.position_._length == 2 && told.velocity_._length == 2));
-      CHECK(std::string(told.name_._buffer[0]) == "left_wheel_joint");
-      CHECK(std::string(told.name_._buffer[1]) == "right_wheel_joint");
-      CHECK((told.position_._buffer[0] == 1.5 && told.position_._buffer[1] == -2.5));
-      CHECK((told.velocity_._buffer[0] == 0.25 && told.velocity_._buffer[1] == 4.0));
-      CHECK(told.effort_._length == 0);
-    });
-  }
-  CHECK(came);
-  dds_delete(far_end);
+  check_comes<sensor_msgs_msg_dds__JointState_>(
+      sensor_msgs_msg_dds__JointState__desc, "", "/joint_states",
+      view::joint_states(wheels, Time{std::chrono::milliseconds(2250)}), [](const auto& told) {
+        CHECK(told.header_.stamp_.sec_ == 2);
+        CHECK(told.header_.stamp_.nanosec_ == 250'000'000);
+        REQUIRE((told.name_._length == 2 && told.position_._length == 2 && told.velocity_._length == 2));
+        CHECK(std::string(told.name_._buffer[0]) == "left_wheel_joint");
+        CHECK(std::string(told.name_._buffer[1]) == "right_wheel_joint");
+        CHECK((told.position_._buffer[0] == 1.5 && told.position_._buffer[1] == -2.5));
+        CHECK((told.velocity_._buffer[0] == 0.25 && told.velocity_._buffer[1] == 4.0));
+        CHECK(told.effort_._length == 0);
+      });
 }
 
 TEST_CASE("a goal on DDS is taken where goals were asked for, and nowhere else") {

@@ -42,6 +42,10 @@ class Run:
         self.said = self.program.communicate(timeout=kHang_s)[0]
         return self.program.returncode
 
+    def kill(self):
+        self.program.kill()
+        self.wait()
+
     def interrupt(self):
         self.program.send_signal(signal.SIGINT)
         return self.wait()
@@ -132,9 +136,7 @@ class Client:
 
     def last_frame(self):
         """The frame that tells the outcome; the run ends once this client is closed."""
-        frame = self.frame()
-        while frame and not frame["ended"]:
-            frame = self.frame()
+        frame = self.frame_where(lambda frame: not frame or frame["ended"])
         self.close()
         return frame
 

@@ -14,7 +14,9 @@
 #include "firmware/robot/robot_file.h"
 #include "hal/types/errors.h"
 #include "hil/far_end/simulated_robot.h"
+#include "tests/recording/scratch.h"
 #include "tests/support/catch.h"
+#include "tests/support/text.h"
 #include "tests/view/hostile_process.h"
 #include "tests/view/page_socket.h"
 
@@ -24,30 +26,36 @@ using namespace std::chrono_literals;
 
 namespace {
 
-std::filesystem::path place(const std::string& name) {
-  return std::filesystem::temp_directory_path() / ("view" + std::to_string(::getpid()) + "_" + name);
-}
-
 RobotFile wiring() {
   RobotFile file = load_robot_file(std::string(JAYWALK_RIG) + "/drive/robot.toml");
   file.setup.backend = Backend::kCpu;
   return file;
 }
 
-std::string text_of(const std::filesystem::path& path) {
-  std::ifstream file(path);
-  return {std::istreambuf_iterator<char>(file), {}};
+/// The page's address, as the run leaves it beside its control socket.
+std::string address_by(const std::filesystem::path& socket) {
+  std::ifstream file(socket.string() + ".view");
+  std::string url;
+  std::getline(file, url);
+  return url;
+}
+
+/// A page that has asked for the run's WebSocket with the token.
+wire::FileDescriptor page_of(const std::string& url) {
+  wire::FileDescriptor page = connected(port_of(url));
+  say(page, upgrade("/ws" + query_of(url)));
+  return page;
 }
 
 /// A run's control socket that keeps what it is told, and its page.
 struct Bench {
-  std::string address() const { return text_of(socket.string() + ".view"); }
+  explicit Bench(const Scratch& scratch) : socket(scratch.folder() / "control") {}
   std::string told() {
     const std::scoped_lock lock(mutex);
     return lines;
   }
 
-  std::filesystem::path socket = place("control");
+  std::filesystem::path socket;
   std::mutex mutex;
   std::string lines;
   std::promise<void> slow;  ///< lets the goal 0, 0 be answered
@@ -64,8 +72,9 @@ struct Bench {
 }  // namespace
 
 TEST_CASE("a goal through 127.0.0.1 wants the token that lies beside the control socket, a stop wants none") {
-  Bench bench;
-  const std::string url = bench.address();
+  const Scratch scratch;
+  Bench bench(scratch);
+  const std::string url = address_by(bench.socket);
   const std::uint16_t port = port_of(url);
   struct stat kind {};
   REQUIRE(::stat((bench.socket.string() + ".view").c_str(), &kind) == 0);
@@ -73,58 +82,53 @@ TEST_CASE("a goal through 127.0.0.1 wants the token that lies beside the control
 
   const auto stranger = connected(port);
   say(stranger, upgrade("/ws") + frame(R"({"goal":[1,2]})"));
-  CHECK(heard(stranger).find(" 403 ") != std::string::npos);
+  CHECK(holds(heard(stranger), " 403 "));
   const auto stop = connected(port);
   say(stop, request("POST /stop"));
-  CHECK(heard(stop).find("heard stop") != std::string::npos);
+  CHECK(holds(heard(stop), "heard stop"));
   CHECK(bench.told() == "stop now\n");  // it latches
 
-  const std::string query = query_of(url.substr(0, url.size() - 1));
-  const auto friendly = connected(port);
-  say(friendly, upgrade("/ws" + query));
-  CHECK(heard(friendly, "\r\n\r\n").find(" 101 ") != std::string::npos);
+  const auto friendly = page_of(url);
+  CHECK(holds(heard(friendly, "\r\n\r\n"), " 101 "));
   say(friendly, frame(R"({"goal":[1,2]})"));
-  CHECK(heard(friendly, "heard goto").find("heard goto") != std::string::npos);
+  CHECK(holds(heard(friendly, "heard goto"), "heard goto"));
   CHECK(bench.told() == "stop now\ngoto 1 2\n");
   say(friendly, frame(R"({"here":[1,2,0.5]})"));
-  CHECK(heard(friendly, "heard here 1 2 0.5").find("heard here 1 2 0.5") != std::string::npos);
+  CHECK(holds(heard(friendly, "heard here 1 2 0.5"), "heard here 1 2 0.5"));
 }
 
 TEST_CASE("the file with the address goes with the run, and a file of another kind in its place stays as it is") {
-  { const Bench bench; }
-  const std::filesystem::path socket = place("control"), file = socket.string() + ".view";
+  const Scratch scratch;
+  { const Bench bench(scratch); }
+  const std::filesystem::path socket = scratch.folder() / "control", file = socket.string() + ".view";
   CHECK_FALSE(std::filesystem::exists(file));
-  std::ofstream(file) << "precious";
+  scratch.write("control.view", "precious");
   CHECK_THROWS_AS(AddressFile(socket, "http://127.0.0.1:1/?token=a"), StartupError);
-  CHECK(text_of(file) == "precious");
+  CHECK(scratch.read("control.view") == "precious");
   std::filesystem::remove(file);
-  std::ofstream(place("elsewhere")) << "http://127.0.0.1:1/?token=a";
-  std::filesystem::create_symlink(place("elsewhere"), file);
+  std::filesystem::create_symlink(scratch.write("elsewhere", "http://127.0.0.1:1/?token=a"), file);
   CHECK_THROWS_AS(AddressFile(socket, "http://127.0.0.1:1/?token=a"), StartupError);
   std::filesystem::remove(file);
-  std::ofstream(file) << "http://127.0.0.1:1/?token=left";  // by a run that was killed
+  scratch.write("control.view", "http://127.0.0.1:1/?token=left");  // by a run that was killed
   { const AddressFile mine(socket, "http://127.0.0.1:2/?token=b"); }
   CHECK_FALSE(std::filesystem::exists(file));
-  std::filesystem::remove(place("elsewhere"));
 }
 
 TEST_CASE("a stop waits for no goal, takes back the one that waits, and follows the one on its way") {
-  Bench bench;
-  std::string url = bench.address();
-  url.pop_back();
-  const auto page = connected(port_of(url));
-  say(page, upgrade("/ws" + query_of(url)) + "");
-  REQUIRE(heard(page, "\r\n\r\n").find(" 101 ") != std::string::npos);
+  const Scratch scratch;
+  Bench bench(scratch);
+  const auto page = page_of(address_by(bench.socket));
+  REQUIRE(holds(heard(page, "\r\n\r\n"), " 101 "));
   say(page, frame(R"({"goal":[0,0]})"));  // takes its time
   while (bench.told().empty()) std::this_thread::sleep_for(1ms);
   say(page, frame(R"({"goal":[2,2]})") + frame(R"({"stop":true})"));
-  CHECK(heard(page, "heard stop").find("heard goto") == std::string::npos);
+  CHECK_FALSE(holds(heard(page, "heard stop"), "heard goto"));
   bench.slow.set_value();
-  CHECK(heard(page, "taken back").find("heard goto 0 0") != std::string::npos);
+  CHECK(holds(heard(page, "taken back"), "heard goto 0 0"));
   say(page, frame(R"({"goal":[3,3]})"));
-  CHECK(heard(page, "heard goto 3 3").find("2 2") == std::string::npos);
+  CHECK_FALSE(holds(heard(page, "heard goto 3 3"), "2 2"));
   say(page, frame(R"({"reset":true})"));
-  CHECK(heard(page, "heard reset").find("stop") == std::string::npos);
+  CHECK_FALSE(holds(heard(page, "heard reset"), "stop"));
   CHECK(bench.told() == "goto 0 0\nstop now\nstop now\ngoto 3 3\nreset\n");
 }
 
@@ -154,21 +158,16 @@ class PagedRun {
     static_cast<void>(robot_.drive().arm());
     robot_.loop().start();
   }
-  ~PagedRun() {
-    end();
-    std::filesystem::remove_all(folder_);
-  }
+  ~PagedRun() { end(); }
   void end() {
     robot_.loop().end();
     while (!robot_.loop().has_ended()) follow(10ms);
   }
-  [[nodiscard]] std::string url() const { return text_of(socket_.string() + ".view"); }
   /// Text that a page hears after its first frame, until it is told the end.
   std::string heard_to_the_end() {
-    const auto page = connected(port_of(url()));
-    say(page, upgrade("/ws" + query_of(url().substr(0, url().size() - 1))));
+    const auto page = page_of(address_by(socket_));
     std::string text, part(4096, '\0');
-    while (text.find(R"("kind":"frame")") == std::string::npos) {
+    while (!holds(text, R"("kind":"frame")")) {
       follow(10ms);
       const ssize_t got = ::recv(page.get(), part.data(), part.size(), MSG_DONTWAIT);
       if (got > 0) text.append(part, 0, static_cast<std::size_t>(got));
@@ -179,9 +178,8 @@ class PagedRun {
   }
   /// Beset for that long by clients in a process of their own, after two seconds in peace.
   Figures besiege(HostileProcess& hostile, std::chrono::seconds long_) {
-    const std::string url = this->url(), query = query_of(url.substr(0, url.size() - 1));
-    const auto page = connected(port_of(url));
-    say(page, upgrade("/ws" + query));
+    const std::string url = address_by(socket_), query = query_of(url);
+    const auto page = page_of(url);
     follow(2s);
     const long before = resident_kB();
     const std::uint64_t missed = figures_.missed, ticks = figures_.ticks;
@@ -192,7 +190,7 @@ class PagedRun {
       stop_once(port_of(url));
       const auto newcomer = connected(port_of(url));
       say(newcomer, request("GET /" + query));
-      figures_.pages_served += heard(newcomer).find("<canvas") != std::string::npos ? 1 : 0;
+      figures_.pages_served += holds(heard(newcomer), "<canvas") ? 1 : 0;
       ++figures_.pages;
       figures_.grown_kB = std::max(figures_.grown_kB, resident_kB() - before);
     }
@@ -216,14 +214,15 @@ class PagedRun {
     const auto began = std::chrono::steady_clock::now();
     const auto peer = connected(port);
     say(peer, request("POST /stop"));
-    figures_.stops_heard += heard(peer).find("\"said\"") != std::string::npos ? 1 : 0;
+    figures_.stops_heard += holds(heard(peer), "\"said\"") ? 1 : 0;
     ++figures_.stops;
     const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - began;
     figures_.slowest_stop_ms = std::max(figures_.slowest_stop_ms, took.count());
   }
 
   Figures figures_;
-  std::filesystem::path folder_ = place("run"), socket_ = place("beset");
+  Scratch scratch_;
+  std::filesystem::path folder_ = scratch_.folder() / "run", socket_ = scratch_.folder() / "beset";
   rig::RealLivingClock clock_;
   RunView page_{{}, socket_, "beset", wiring().setup, map_for(wiring().setup)};
   rig::InProcessRobot robot_{wiring(),
@@ -262,7 +261,7 @@ void beset(int clients, std::chrono::seconds for_) {
 
 TEST_CASE("the page of a run on a robot is told that the run has ended, and how") {
   PagedRun run;
-  CHECK(run.heard_to_the_end().find(R"("ended":"stopped")") != std::string::npos);
+  CHECK(holds(run.heard_to_the_end(), R"("ended":"stopped")"));
 }
 
 TEST_CASE("a hundred hostile clients take neither memory nor a stop's or a newcomer's place") { beset(100, 5s); }

@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
@@ -51,12 +50,6 @@ constexpr std::array<LaserMessage, 3> kLasers{
 constexpr double kSameMountM = 0.02, kSameMountRad = 0.01;
 constexpr std::size_t kLaserPose = 0;  // of ROBOTLASER1, likewise: in the frame of the robot's
 
-/// What a log says at one place: a scan with the robot's pose, or a pose between scans.
-struct Event {
-  OdometryPose pose;
-  bool of_scan = false;
-};
-
 /// The messages of one log. The laser's are those of one kind: logs have the same scans in several.
 class CarmenReader {
  public:
@@ -72,11 +65,11 @@ class CarmenReader {
     if (log_.scans.empty()) return;
     if (mount_ && mount_is_fixed_ && log_.robot_from_laser == Pose2{}) use_mount(place.file);
     std::size_t scan = 0;
-    for (const Event& event : events_)
-      if (!event.of_scan)
-        append_between(event, {place.file, event.pose.number});
+    for (const auto& [pose, of_scan] : events_)
+      if (!of_scan)
+        append_between(pose, {place.file, pose.number});
       else if (stays[scan++] && laser_.pose > 0)
-        append_scan(event.pose);
+        append_scan(pose);
     if (poses_.size() >= kEnoughScans && beside_ * kCorrectedOneIn > poses_.size()) leave_out_odometry(place.file);
   }
 
@@ -91,10 +84,10 @@ class CarmenReader {
     const bool tells_limit = laser_.tells_beams && scan.range_max_m < kNothingFromM;
     const double nothing_from_m = tells_limit ? static_cast<double>(scan.range_max_m) : kNothingFromM;
     std::optional<Pose2> pose = Pose2{};
-    if (laser_.pose > 0) pose = sound_pose(pose_at(file, tail + laser_.pose));
+    if (laser_.pose > 0) pose = sound_pose(file.pose(tail + laser_.pose));
     if (!pose) return log_.refuse(file.place(), kNoPose);
     if (!add_scan(log_, file, scan, first, nothing_from_m)) return;
-    if (laser_.tells_beams && laser_.pose > 0) see_mount(inverse(*pose) * pose_at(file, tail + kLaserPose));
+    if (laser_.tells_beams && laser_.pose > 0) see_mount(inverse(*pose) * file.pose(tail + kLaserPose));
     events_.push_back({{scan.stamp, *pose, std::nullopt, file.line()}, true});
   }
   void see_mount(const Pose2& mount) {
@@ -121,7 +114,7 @@ class CarmenReader {
   }
   void read_odometry(const LineFile& file) {
     if (file.words().size() != kOdomWords) return log_.refuse(file.place(), kWrongLength);
-    const std::optional<Pose2> pose = sound_pose(pose_at(file, 1));
+    const std::optional<Pose2> pose = sound_pose(file.pose(1));
     if (!pose) return log_.refuse(file.place(), kNoPose);
     events_.push_back({{time_from_seconds(file.seconds(kOdomTime)), *pose, std::nullopt, file.line()}, false});
   }
@@ -131,12 +124,12 @@ class CarmenReader {
     poses_.push_back(pose);
     log_.odometry.push_back(pose);
   }
-  void append_between(const Event& event, const LogPlace& place) {
-    const Time stamp = event.pose.stamp;
+  void append_between(const OdometryPose& pose, const LogPlace& place) {
+    const Time stamp = pose.stamp;
     if (stamp + kOtherClockFrom < log_.scans.front().stamp || stamp - kOtherClockFrom > log_.scans.back().stamp)
       return log_.refuse(place, kOtherClock);
     if (!log_.odometry.empty() && stamp <= log_.odometry.back().stamp) return log_.refuse(place, kOdomStands);
-    log_.odometry.push_back(event.pose);
+    log_.odometry.push_back(pose);
   }
   /// Uses the scans' own poses as odometry in place of all ODOM lines, and takes back their refusals for wrong times.
   void leave_out_odometry(const std::string& file) {
@@ -148,11 +141,11 @@ class CarmenReader {
 
   RecordedLog& log_;
   const LaserMessage& laser_;
-  std::vector<OdometryPose> poses_;  ///< as the laser's lines have them
-  std::size_t beside_ = 0;           ///< of them, beside where the ODOM lines led
-  std::vector<Event> events_;
-  std::optional<Pose2> mount_;  ///< of the laser, by the poses of both
-  bool mount_is_fixed_ = true;  ///< not so where one of them was corrected afterwards
+  std::vector<OdometryPose> poses_;                    ///< as the laser's lines have them
+  std::size_t beside_ = 0;                             ///< of them, beside where the ODOM lines led
+  std::vector<std::pair<OdometryPose, bool>> events_;  ///< poses, and whether each is a scan's or between scans
+  std::optional<Pose2> mount_;                         ///< of the laser, by the poses of both
+  bool mount_is_fixed_ = true;                         ///< not so where one of them was corrected afterwards
 };
 
 /// The kind of laser message in the log that tells most; FLASER where there is none.

@@ -1,8 +1,7 @@
-#include "apps/formats/logs/line_file.h"
-
 #include <algorithm>
 #include <cmath>
 
+#include "apps/formats/logs/log_checks.h"
 #include "hal/shown_text.h"
 
 namespace jaywalk::sim {
@@ -17,12 +16,12 @@ constexpr std::size_t kBlockBytes = 1U << 16U;
 
 }  // namespace
 
-TextLines::TextLines(const std::filesystem::path& file, const std::string& expected) : file_(file) {
+LineFile::LineFile(const std::filesystem::path& file, const std::string& expected) : file_(file) {
   require_readable(file, name() + ": ", expected);
   stream_.emplace(file.c_str());
 }
 
-bool TextLines::next() {
+bool LineFile::next_line() {
   text_.clear();
   ++line_;
   for (bool ended = false; !ended;) {
@@ -49,27 +48,19 @@ bool TextLines::next() {
 void LineFile::split() {
   words_.clear();
   constexpr std::string_view kBlank = " \t\r";
-  const std::string_view text = TextLines::text();
-  if (has_commas()) {
-    for (std::size_t begin = 0; begin <= text.size();) {
-      const std::size_t end = std::min(text.find(',', begin), text.size());
-      const std::string_view field = text.substr(begin, end - begin);
-      const std::size_t first = std::min(field.find_first_not_of(kBlank), field.size());
-      words_.push_back(field.substr(first, field.find_last_not_of(kBlank) + 1 - first));
-      begin = end + 1;
-    }
-    return;
-  }
-  std::size_t begin = text.find_first_not_of(kBlank);
-  while (begin != std::string_view::npos) {
-    const std::size_t end = std::min(text.find_first_of(kBlank, begin), text.size());
-    words_.push_back(text.substr(begin, end - begin));
-    begin = text.find_first_not_of(kBlank, end);
+  const bool commas = has_commas();
+  const std::string_view text = text_;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find_first_of(commas ? "," : kBlank, begin), text.size());
+    const std::string_view field = text.substr(begin, end - begin);
+    const std::size_t first = std::min(field.find_first_not_of(kBlank), field.size());
+    if (commas || !field.empty()) words_.push_back(field.substr(first, field.find_last_not_of(kBlank) + 1 - first));
+    begin = end + 1;
   }
 }
 
 bool LineFile::next() {
-  while (TextLines::next()) {
+  while (next_line()) {
     split();
     if (!words_.empty() && !words_.front().starts_with('#')) return true;
   }

@@ -9,6 +9,8 @@
 namespace jaywalk::sim {
 namespace {
 
+constexpr const char* kTimeStands = "its time does not grow";
+constexpr const char* kTimeLeapt = "its time is ahead of those after it";
 constexpr Duration kLeap = std::chrono::seconds(1);  // a stamp so far ahead of a later one is the wrong one of the two
 
 /// First and last stamp of the largest group without such a gap; the earliest of groups of equal size.
@@ -45,10 +47,13 @@ std::vector<std::size_t> longest_rising(std::span<const Time> stamps, const std:
   return rising;
 }
 
-/// A cause for each stamp that is left out, nullptr for those that are kept, in the order of `stamps`: that of
-/// recording. Kept are, of the largest group without a gap of an hour, those of the longest sequence that rises
-/// strictly: a clock that was set right on the way costs the fewest.
-std::vector<const char*> judge_times(std::span<const Time> stamps) {
+/// A cause for each stamp that is left out, nullptr for those that are kept, in the order of recording. Kept are, of
+/// the largest group without a gap of an hour, those of the longest sequence that rises strictly: a clock that was set
+/// right on the way costs the fewest.
+template <class Stamped>
+std::vector<const char*> judge_times(const std::vector<Stamped>& recorded) {
+  std::vector<Time> stamps;
+  for (const Stamped& one : recorded) stamps.push_back(one.stamp);
   std::vector<const char*> causes(stamps.size(), kOtherClock);
   if (stamps.empty()) return causes;
   const auto [first, last] = largest_group(stamps);
@@ -117,9 +122,7 @@ bool add_scan(RecordedLog& log, const LogPlace& place, RecordedScan scan, std::s
 }
 
 std::vector<bool> settle_times(RecordedLog& log, LogPlace place) {
-  std::vector<Time> stamps;
-  for (const RecordedScan& scan : log.scans) stamps.push_back(scan.stamp);
-  const std::vector<const char*> causes = judge_times(stamps);
+  const std::vector<const char*> causes = judge_times(log.scans);
   std::vector<bool> stays;
   std::vector<float> ranges;
   for (std::size_t k = 0; k < causes.size(); ++k) {
@@ -193,9 +196,7 @@ void LogOdometry::settle(LogPlace place) {
     log_.refuse(place, "a speed that is none");
   }
   leave_out_distant_times(place);
-  std::vector<Time> stamps;
-  for (const OdometryPose& said : said_) stamps.push_back(said.stamp);
-  const std::vector<const char*> causes = judge_times(stamps);
+  const std::vector<const char*> causes = judge_times(said_);
   for (std::size_t k = 0; k < said_.size(); ++k) {
     place.number = said_[k].number;
     if (causes[k] == nullptr) append(said_[k], place);
@@ -256,7 +257,5 @@ bool add_scan(RecordedLog& log, const LineFile& file, const RecordedScan& scan, 
   for (std::size_t i = 0; i < scan.beams; ++i) ranges[i] = file.number(first_word + i);
   return add_scan(log, file.place(), scan, ranges, nothing_from_m);
 }
-
-Pose2 pose_at(const LineFile& file, std::size_t i) { return {file.number(i), file.number(i + 1), file.number(i + 2)}; }
 
 }  // namespace jaywalk::sim

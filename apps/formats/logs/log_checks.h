@@ -1,5 +1,5 @@
 #pragma once
-// Checks of scans, poses and stamps that every reader of recordings makes.
+// Lines of recordings, and checks of scans, poses and stamps, for their readers.
 #include <chrono>
 #include <cstddef>
 #include <limits>
@@ -8,15 +8,60 @@
 #include <string>
 #include <vector>
 
-#include "apps/formats/logs/line_file.h"
 #include "apps/formats/logs/recorded_log.h"
+#include "hal/text_file.h"
 #include "hal/types/geometry.h"
 #include "hal/types/time.h"
 
 namespace jaywalk::sim {
 
-inline constexpr const char* kTimeStands = "its time does not grow";
-inline constexpr const char* kTimeLeapt = "its time is ahead of those after it";
+/// A text file, plain or gzip, a line at a time. Words are separated by spaces and tabs, or by commas where the line
+/// has one: then they may be empty.
+class LineFile {
+ public:
+  /// `expected` says what to give instead where there is no such file. Throws StartupError when the file cannot be
+  /// read.
+  explicit LineFile(const std::filesystem::path& file, const std::string& expected = "give the path of a recording");
+
+  /// Moves on to the next line; false at the end. Throws StartupError for a damaged or cut .gz and for a line that is
+  /// too long.
+  [[nodiscard]] bool next_line();
+  /// next_line() to the next line with words in it, the first of which does not begin with '#'.
+  [[nodiscard]] bool next();
+  /// The line without its end, be that "\n" or "\r\n"; valid until the next one.
+  [[nodiscard]] const std::string& text() const { return text_; }
+  /// The line's words, where it came by next(); valid until the next one.
+  [[nodiscard]] const std::vector<std::string_view>& words() const { return words_; }
+  /// Word `i` as a number; "nan" and "inf" are numbers. Throws StartupError where it is none.
+  [[nodiscard]] double number(std::size_t i) const;
+  /// Word `i` as a count of at most `most`. Throws StartupError where it is none or larger.
+  [[nodiscard]] std::size_t count(std::size_t i, std::size_t most) const;
+  /// Word `i` as seconds that fit the time line. Throws StartupError where it is not.
+  [[nodiscard]] double seconds(std::size_t i) const;
+  /// Words i, i + 1 and i + 2 as a pose.
+  [[nodiscard]] Pose2 pose(std::size_t i) const { return {number(i), number(i + 1), number(i + 2)}; }
+
+  [[nodiscard]] bool has_commas() const { return text_.find(',') != std::string::npos; }
+  [[nodiscard]] std::string name() const { return file_.string(); }
+  [[nodiscard]] std::size_t line() const { return line_; }
+  [[nodiscard]] LogPlace place() const { return {name(), line_}; }
+  /// Throws StartupError "FILE:LINE: cause; remedy" for the line at hand.
+  [[noreturn]] void refuse(const std::string& cause, const std::string& remedy) const { place().refuse(cause, remedy); }
+
+ private:
+  void split();
+
+  std::filesystem::path file_;
+  std::optional<GzipFile> stream_;
+  std::string block_;      ///< read last
+  std::size_t taken_ = 0;  ///< bytes of it
+  std::string text_;
+  std::size_t line_ = 0;
+  std::vector<std::string_view> words_;
+};
+
+inline constexpr const char* kWrongLength = "its number of words does not fit";
+inline constexpr const char* kNoPose = "a pose that is none";
 inline constexpr const char* kOtherClock = "its time is over an hour from the others'";
 /// A tick lasts 20 ms: a clock that was set right would be replayed for ever.
 inline constexpr Duration kOtherClockFrom = std::chrono::hours(1);
@@ -49,7 +94,6 @@ void remark_gaps(RecordedLog& log, const std::string& file);
 
 /// `pose`, its heading wrapped. Nothing where it is NaN or lies beyond 1000 km.
 [[nodiscard]] std::optional<Pose2> sound_pose(const Pose2& pose);
-inline constexpr const char* kNoPose = "a pose that is none";
 
 /// Odometry that may begin anew on its way, in the order of recording; the scans are known.
 class LogOdometry {
@@ -77,13 +121,8 @@ class LogOdometry {
 /// Throws StartupError where none of the odometry is of the scans' time; remarks on a second or more without odometry.
 void compare_times(RecordedLog& log, const std::string& odometry_name);
 
-inline constexpr const char* kWrongLength = "its number of words does not fit";
-
 /// add_scan() with the ranges in words [first_word, first_word + scan.beams).
 bool add_scan(RecordedLog& log, const LineFile& file, const RecordedScan& scan, std::size_t first_word,
               double nothing_from_m);
-
-/// Word i, i + 1, i + 2 as a pose.
-[[nodiscard]] Pose2 pose_at(const LineFile& file, std::size_t i);
 
 }  // namespace jaywalk::sim

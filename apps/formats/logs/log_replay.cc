@@ -27,17 +27,6 @@ LogReplay::LogReplay(RecordedLog log)
   sleep_until(start_time());
 }
 
-Hal LogReplay::hal() noexcept {
-  const Hal hal = devices_.hal();
-  return {hal.laser, hal.drive, hal.panel, hal.pose_source, *this};
-}
-
-void LogReplay::set_goal(Vec2 goal_in_map, double tolerance_m) noexcept {
-  shown_->input.has_goal = true;
-  shown_->input.goal_in_map = goal_in_map;
-  shown_->input.goal_tolerance_m = tolerance_m;
-}
-
 Pose2 LogReplay::start_pose() const noexcept { return pose_at(log_.odometry, start_time()).value_or(Pose2{}); }
 
 std::optional<Pose2> LogReplay::last_pose() const noexcept { return pose_at(log_.odometry, end_time()); }

@@ -21,9 +21,16 @@ class LogReplay final : private Clock {
   LogReplay(const LogReplay&) = delete;
   LogReplay& operator=(const LogReplay&) = delete;
 
-  [[nodiscard]] Hal hal() noexcept;
+  [[nodiscard]] Hal hal() noexcept {
+    const Hal hal = devices_.hal();
+    return {hal.laser, hal.drive, hal.panel, hal.pose_source, *this};
+  }
   /// What the operator wants from now on.
-  void set_goal(Vec2 goal_in_map, double tolerance_m) noexcept;
+  void set_goal(Vec2 goal_in_map, double tolerance_m) noexcept {
+    shown_->input.has_goal = true;
+    shown_->input.goal_in_map = goal_in_map;
+    shown_->input.goal_tolerance_m = tolerance_m;
+  }
 
   /// True once the last scan has been reached.
   [[nodiscard]] bool ended() const noexcept { return shown_->now >= end_time(); }

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "hal/types/geometry.h"
-#include "hal/types/laser_scan.h"
 #include "hal/types/robot_model.h"
 #include "hal/types/time.h"
 #include "hal/types/wheels.h"

@@ -48,7 +48,7 @@ class MotionLines {
 
   void read(const LineFile& file) {
     const Time said = time_from_seconds(file.seconds(0));
-    const Pose2 moved = lines_ == 0 ? Pose2{} : pose_at(file, 1);  // the first's led to where this begins
+    const Pose2 moved = lines_ == 0 ? Pose2{} : file.pose(1);  // the first's led to where this begins
     const std::optional<Pose2> led_to = sound_pose(odometry_ * moved);
     if (!led_to) return log_.refuse(file.place(), kNoPose);
     odometry_ = *led_to;
@@ -134,27 +134,23 @@ bool read_scans(RecordedLog& log, const std::filesystem::path& path) {
 /// Words of a line of odometry that are time, x, y, heading and, where there are speeds, v and w.
 using OdometryColumns = std::vector<std::size_t>;
 
-constexpr std::array<std::array<std::string_view, 5>, 4> kColumnNames{
-    {{"t_s", "t", "time", "timestamp", "stamp"},
-     {"est_x_m", "x_m", "x", "px", "pos_x"},
-     {"est_y_m", "y_m", "y", "py", "pos_y"},
-     {"est_heading_rad", "heading_rad", "theta", "yaw", "heading"}}};
+struct KnownNames {
+  const char* of;
+  std::array<std::string_view, 5> names;
+};
+constexpr std::array<KnownNames, 4> kColumnNames{
+    {{"time", {"t_s", "t", "time", "timestamp", "stamp"}},
+     {"position", {"est_x_m", "x_m", "x", "px", "pos_x"}},
+     {"position", {"est_y_m", "y_m", "y", "py", "pos_y"}},
+     {"heading", {"est_heading_rad", "heading_rad", "theta", "yaw", "heading"}}}};
 
 /// Columns by their names in the first line. The estimate counts in a robot.csv, which has the world's truth beside it.
 OdometryColumns named_columns(RecordedLog& log, const LineFile& file) {
   OdometryColumns columns;
   std::string told;
-  for (std::size_t k = 0; k < kColumnNames.size(); ++k) {
-    const auto* const name = std::ranges::find_if(kColumnNames[k], [&](std::string_view one) {
-      return std::ranges::find(file.words(), one) != file.words().end();
-    });
-    if (name == kColumnNames[k].end())
-      file.refuse("no column for the " +
-                      std::string(k == 0   ? "time"
-                                  : k == 3 ? "heading"
-                                           : "position") +
-                      " in it",
-                  "name columns t,x,y,theta");
+  for (const auto& [of, names] : kColumnNames) {
+    const auto* const name = std::ranges::find_first_of(names, file.words());
+    if (name == names.end()) file.refuse("no column for the " + std::string(of) + " in it", "name columns t,x,y,theta");
     columns.push_back(static_cast<std::size_t>(std::ranges::find(file.words(), *name) - file.words().begin()));
     told += (told.empty() ? "" : ", ") + std::string(*name);
   }
@@ -170,11 +166,9 @@ OdometryColumns counted_columns(RecordedLog& log, const LineFile& file) {
 
 /// True where the first line names columns: one is a time, or a CSV file's line begins with a letter.
 bool names_columns(const LineFile& file) {
-  const auto is_time = [](std::string_view word) {
-    return std::ranges::find(kColumnNames[0], word) != kColumnNames[0].end();
-  };
   const std::string_view first = file.words().front();
-  return std::ranges::any_of(file.words(), is_time) ||
+  const auto& times = kColumnNames[0].names;
+  return std::ranges::find_first_of(times, file.words()) != times.end() ||
          (file.has_commas() && !first.empty() && std::isalpha(static_cast<unsigned char>(first.front())) != 0);
 }
 

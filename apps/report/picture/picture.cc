@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
 #include "apps/report/markup.h"
 #include "apps/report/picture/canvas.h"
@@ -12,94 +11,85 @@ namespace jaywalk {
 namespace {
 constexpr double kFactSize = 20.0, kFactLine = 30.0, kLegendLine = 36.0, kSwatch = 52.0;
 
-std::string metres(double value) {
-  const double rounded = std::floor(value * 10.0 + 0.5) / 10.0;
-  const std::string text = std::to_string(rounded);
-  return std::floor(rounded) == rounded ? text.substr(0, text.find('.')) : text.substr(0, text.find('.') + 2);
-}
-
-/// Draws the sample of a legend's row about a middle point.
-using Sample = std::function<void(Vec2)>;
-
-struct LegendRow {
-  Sample sample;
-  std::string text;
-};
-
-Sample line_sample(Canvas& canvas, const Pen& pen) {
-  return [&canvas, pen](Vec2 at) {
-    canvas.stroke({at - Vec2{kSwatch / 2.0, 0.0}, at + Vec2{kSwatch / 2.0, 0.0}}, pen);
-  };
-}
-
-Sample disc_sample(Canvas& canvas, double radius, const Colour& colour, const Pen& rim) {
-  return [&canvas, radius, colour, rim](Vec2 at) { canvas.draw_disc(at, radius, colour, rim); };
-}
-
-/// A mover's or a track's trail, which ends in a disc.
-Sample trail_sample(Canvas& canvas, double radius) {
-  return [&canvas, radius](Vec2 at) {
-    line_sample(canvas, {colour_of(0).faded(0.7), 2.6})(at);
-    canvas.fill_disc(at + Vec2{kSwatch / 2.0 - radius, 0.0}, radius, colour_of(0));
-  };
-}
-
-Sample white_sample(Canvas& canvas) {
-  const Vec2 half{kSwatch / 2.0, 9.0};
-  return [&canvas, half](Vec2 at) {
-    canvas.stroke({at - half, at + Vec2{half.x, -half.y}, at + half, at + Vec2{-half.x, half.y}}, {ink::kFaint, 1.2},
-                  true);
-  };
-}
+std::string metres(double value) { return formatted("%.10g", std::floor(value * 10.0 + 0.5) / 10.0); }
 
 std::string moment_time(const PictureScene& scene) {
   const Time begin = scene.driven.empty() ? Time{} : scene.driven.front().t;
   return metres(to_seconds(scene.moment->t - begin)) + " s";
 }
 
-void add_map_rows(std::vector<LegendRow>& rows, Canvas& canvas, const PictureScene& scene) {
-  if (!scene.occupied.empty()) rows.push_back({line_sample(canvas, {ink::kSeen, 7.0}), "walls seen"});
-  if (!scene.walls.empty()) rows.push_back({line_sample(canvas, {ink::kWall, 5.0}), "walls"});
-  for (const auto& [kind, text] : {std::pair{ZoneKind::kKeepOut, "keep-out zone"}, {ZoneKind::kSpeed, "speed zone"}})
-    if (std::ranges::count(scene.zones, kind, &MapZone::kind) > 0)
-      rows.push_back({line_sample(canvas, {colour_of(kind), 3.0, 8.0}), text});
-  if (!scene.driven.empty()) rows.push_back({line_sample(canvas, {ink::kRobot, 4.0}), "driven, with the time"});
-}
+/// Samples in a column, each with its words beside it.
+struct Legend {
+  Canvas& canvas;
+  const PictureScene& scene;
+  Vec2 at;  ///< left end of the next row
 
-void add_mover_rows(std::vector<LegendRow>& rows, Canvas& canvas, const PictureScene& scene) {
-  if (!scene.movers.empty())
-    rows.push_back(
-        {trail_sample(canvas, 10.0), scene.moment ? "movers at " + moment_time(scene) : "movers at the end"});
-  else if (std::ranges::any_of(scene.tracks, went_somewhere))
-    rows.push_back({trail_sample(canvas, 5.0), "tracked as moving"});
-  if (std::ranges::any_of(scene.movers, &Trail::flagged))
-    rows.push_back({disc_sample(canvas, 10.0, colour_of(0), {ink::kForced, 3.0}), "was forced to turn"});
-}
-
-void add_moment_rows(std::vector<LegendRow>& rows, Canvas& canvas, const PictureScene& scene) {
-  if (!scene.moment) return;
-  if (!scene.moment->field.psi.empty()) {
-    const bool is_potential = scene.moment->field.of == FieldView::Of::kPotential;  // others end beyond the robot
-    rows.push_back(
-        {white_sample(canvas), is_potential ? "no room for the robot then" : "no room then, or too far off"});
+  [[nodiscard]] Vec2 middle() const { return at + Vec2{kSwatch / 2.0, -6.0}; }
+  void end_row(const std::string& text) {
+    canvas.write(at + Vec2{kSwatch + 22.0, 0.0}, text, {19.0, ink::kText});
+    at.y += kLegendLine;
   }
-  if (!scene.moment->band.empty())
-    rows.push_back({line_sample(canvas, {ink::kBand, 3.2, 10.0}), "plan at " + moment_time(scene)});
-  if (!scene.moment->predictions.empty())
-    rows.push_back(
-        {disc_sample(canvas, 13.0, ink::kBand.faded(0.12), {ink::kBand, 1.6, 6.0}), "expected there by then"});
-}
-
-void add_decision_rows(std::vector<LegendRow>& rows, Canvas& canvas, const PictureScene& scene) {
-  if (!scene.decision) return;
-  rows.push_back({line_sample(canvas, {ink::kBand, 3.6}), "chosen, 6 s"});
-  for (std::size_t k = 0; k < std::min(scene.decision->ways.size(), kWayColours.size()); ++k) {
-    const std::string dearer = formatted("%+.1f s: ", static_cast<double>(scene.decision->ways[k].dearer_s));
-    rows.push_back({line_sample(canvas, {kWayColours[k], 2.4}), dearer + scene.decision->ways[k].name});
+  [[nodiscard]] Polyline across() const {
+    return {middle() - Vec2{kSwatch / 2.0, 0.0}, middle() + Vec2{kSwatch / 2.0, 0.0}};
   }
-  if (!scene.decision->futures.empty())
-    rows.push_back({[&](Vec2 at) { canvas.fill_disc(at, 5.0, kFutureColour.faded(0.5)); }, "where bodies may be"});
-}
+  void add_line(const Pen& pen, const std::string& text) {
+    canvas.stroke(across(), pen);
+    end_row(text);
+  }
+  void add_disc(double radius, const Colour& colour, const Pen& rim, const std::string& text) {
+    canvas.draw_disc(middle(), radius, colour, rim);
+    end_row(text);
+  }
+  /// A mover's or a track's trail, which ends in a disc.
+  void add_trail(double radius, const std::string& text) {
+    canvas.stroke(across(), {colour_of(0).faded(0.7), 2.6});
+    canvas.fill_disc(middle() + Vec2{kSwatch / 2.0 - radius, 0.0}, radius, colour_of(0));
+    end_row(text);
+  }
+  void add_blank(const std::string& text) {
+    const Vec2 mid = middle(), half{kSwatch / 2.0, 9.0};
+    canvas.stroke({mid - half, mid + Vec2{half.x, -half.y}, mid + half, mid + Vec2{-half.x, half.y}},
+                  {ink::kFaint, 1.2}, true);
+    end_row(text);
+  }
+
+  void add_map_rows() {
+    if (!scene.occupied.empty()) add_line({ink::kSeen, 7.0}, "walls seen");
+    if (!scene.walls.empty()) add_line({ink::kWall, 5.0}, "walls");
+    for (const auto& [kind, text] : {std::pair{ZoneKind::kKeepOut, "keep-out zone"}, {ZoneKind::kSpeed, "speed zone"}})
+      if (std::ranges::count(scene.zones, kind, &MapZone::kind) > 0) add_line({colour_of(kind), 3.0, 8.0}, text);
+    if (!scene.driven.empty()) add_line({ink::kRobot, 4.0}, "driven, with the time");
+  }
+  void add_mover_rows() {
+    if (!scene.movers.empty())
+      add_trail(10.0, scene.moment ? "movers at " + moment_time(scene) : "movers at the end");
+    else if (std::ranges::any_of(scene.tracks, went_somewhere))
+      add_trail(5.0, "tracked as moving");
+    if (std::ranges::any_of(scene.movers, &Trail::flagged))
+      add_disc(10.0, colour_of(0), {ink::kForced, 3.0}, "was forced to turn");
+  }
+  void add_moment_rows() {
+    if (!scene.moment) return;
+    if (!scene.moment->field.psi.empty()) {
+      const bool is_potential = scene.moment->field.of == FieldView::Of::kPotential;  // others end beyond the robot
+      add_blank(is_potential ? "no room for the robot then" : "no room then, or too far off");
+    }
+    if (!scene.moment->band.empty()) add_line({ink::kBand, 3.2, 10.0}, "plan at " + moment_time(scene));
+    if (!scene.moment->predictions.empty())
+      add_disc(13.0, ink::kBand.faded(0.12), {ink::kBand, 1.6, 6.0}, "expected there by then");
+  }
+  void add_decision_rows() {
+    if (!scene.decision) return;
+    add_line({ink::kBand, 3.6}, "chosen, 6 s");
+    for (std::size_t k = 0; k < std::min(scene.decision->ways.size(), kWayColours.size()); ++k) {
+      const std::string dearer = formatted("%+.1f s: ", static_cast<double>(scene.decision->ways[k].dearer_s));
+      add_line({kWayColours[k], 2.4}, dearer + scene.decision->ways[k].name);
+    }
+    if (scene.decision->futures.empty()) return;
+    canvas.fill_disc(middle(), 5.0, kFutureColour.faded(0.5));
+    end_row("where bodies may be");
+  }
+};
 
 double draw_facts(Canvas& canvas, const PictureScene& scene, Vec2 at, double width) {
   for (const auto& [name, value] : scene.facts) {
@@ -171,17 +161,12 @@ void draw_panel(Canvas& canvas, const PictureScene& scene, Vec2 upper_left, doub
     const bool is_potential = scene.moment->field.of == FieldView::Of::kPotential;
     at.y = draw_field_key(canvas, at, width, is_potential ? "potential" : "time to go");
   }
-  std::vector<LegendRow> rows;
-  add_map_rows(rows, canvas, scene);
-  add_mover_rows(rows, canvas, scene);
-  add_moment_rows(rows, canvas, scene);
-  add_decision_rows(rows, canvas, scene);
-  for (const LegendRow& row : rows) {
-    row.sample(at + Vec2{kSwatch / 2.0, -6.0});
-    canvas.write(at + Vec2{kSwatch + 22.0, 0.0}, row.text, {19.0, ink::kText});
-    at.y += kLegendLine;
-  }
-  if (scene.moment) draw_note(canvas, at + Vec2{0.0, 4.0});
+  Legend legend{canvas, scene, at};
+  legend.add_map_rows();
+  legend.add_mover_rows();
+  legend.add_moment_rows();
+  legend.add_decision_rows();
+  if (scene.moment) draw_note(canvas, legend.at + Vec2{0.0, 4.0});
 }
 
 // The sheet: a margin for the axes on the left, the title above, the panel on the right.

@@ -1,7 +1,6 @@
 #include "apps/report/picture/run_layers.h"
 
 #include <algorithm>
-#include <array>
 #include <limits>
 
 namespace jaywalk {

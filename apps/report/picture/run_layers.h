@@ -21,7 +21,6 @@ inline constexpr Colour kSlow = colour(0xC79A00);
 inline constexpr Colour kForced = colour(0xC2182B);
 }  // namespace ink
 
-/// A mover's or a track's own colour.
 [[nodiscard]] Colour colour_of(std::uint32_t id);
 
 [[nodiscard]] inline Polyline on_sheet(const std::vector<Vec2>& line, const MapFrame& to_sheet) {
@@ -49,8 +48,6 @@ void draw_drive(Canvas& canvas, const MapFrame& to_sheet, const PictureScene& sc
 [[nodiscard]] Vec2 end_before_wall(const PictureScene& scene, Vec2 from, Vec2 to, double radius_m);
 void draw_moment(Canvas& canvas, const MapFrame& to_sheet, const PictureScene& scene);
 void draw_ends(Canvas& canvas, const MapFrame& to_sheet, const PictureScene& scene);
-
-// Layers that show the planner: its field, and a decision.
 
 /// Each cell's psi as the share of all finite cells that lie lower, in [0, 1): equal steps of it hold
 /// equal areas, so that structure shows near the goal and far from it. NaN where psi is not finite.

@@ -130,13 +130,6 @@ void TrailBook::forget_oldest() {
   });
 }
 
-std::vector<Trail> TrailBook::trails() const {
-  std::vector<Trail> all;
-  all.reserve(trails_.size());
-  for (const auto& [id, trail] : trails_) all.push_back(trail);
-  return all;
-}
-
 std::vector<Vec2> occupied_cells(const EvidenceMap& map, const std::vector<DrivenPose>& driven, double reach_m) {
   std::vector<Vec2> cells;
   Extent box;

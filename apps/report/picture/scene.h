@@ -65,7 +65,11 @@ class TrailBook {
 
   void add(std::uint32_t id, Time t, Vec2 position, double radius_m, bool flag);
   /// In the order of their ids.
-  [[nodiscard]] std::vector<Trail> trails() const;
+  [[nodiscard]] std::vector<Trail> trails() const {
+    std::vector<Trail> all;
+    for (const auto& [id, trail] : trails_) all.push_back(trail);
+    return all;
+  }
 
  private:
   void thin_out();
@@ -107,7 +111,6 @@ struct PlanMoment {
   FieldRaster field;
 };
 
-/// A way that was weighed.
 struct WeighedWay {
   std::string name;  ///< "wait then go"
   std::vector<Vec2> places;
@@ -127,8 +130,7 @@ struct DecisionScene {
   std::vector<FuturePlace> futures;
 };
 
-/// Parts that are empty are left out of the picture and of its legend. A field a part: more than a struct has
-/// elsewhere.
+/// Parts that are empty are left out of the picture and of its legend.
 struct PictureScene {
   std::string title;
   std::vector<std::pair<std::string, std::string>> facts;  ///< shown beside the map: "path", "46.2 m"
@@ -158,7 +160,6 @@ struct PictureScene {
 /// occupied but for the outermost half percent on each side; start and goal; a margin round it.
 [[nodiscard]] Extent extent_of(const PictureScene& scene);
 
-/// A copy of `view`.
 [[nodiscard]] FieldRaster raster_of(const FieldView& view);
 
 /// Keeps the plan at the run's busiest moment: the one with most expected near the robot; of equals the last whose path

@@ -19,7 +19,7 @@ function question({goal, ground, way}, frame) {
   if (!way.length) return `To ${place} no way is known. Go there all the same?`;
   const length = way.slice(1).reduce((sum, p, i) => sum + Math.hypot(p[0] - way[i][0], p[1] - way[i][1]), 0);
   const unseen = ground === kUnseen ? ' Nothing was ever seen there.' : '';
-  return `Go to ${place}? About ${metres(Math.max(length, Math.hypot(goal[0] - frame.pose[0], goal[1] - frame.pose[1])))} of way.${unseen}`;
+  return `Go to ${place}? About ${Math.max(length, Math.hypot(goal[0] - frame.pose[0], goal[1] - frame.pose[1])).toFixed(1)} m of way.${unseen}`;
 }
 function cancel_proposal() {
   proposal = drag = null;

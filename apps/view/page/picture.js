@@ -49,16 +49,12 @@ function draw_tracks(pen, scene, scale) {
   for (const [id, x, y, radius, moves] of scene.tracks) if (moves) { const p = to_screen(x, y + radius); pen.fillText(id, p[0], p[1] - 3 * scale); }
 }
 
-function outline(pose, grow_m) {
-  const f = hello.front_m + grow_m, r = -hello.rear_m - grow_m, w = hello.half_width_m + grow_m;
-  const c = Math.cos(pose[2]), s = Math.sin(pose[2]);
-  return [[f, w], [f, -w], [r, -w], [r, w], [f, w]].map(([x, y]) => [pose[0] + c * x - s * y, pose[1] + s * x + c * y]);
-}
 function draw_robot(pen, frame) {
   frame.zone.forEach((corners, i) => line(pen, [...corners, corners[0]], tint('zone', i + 1 < frame.zone.length ? 0.35 : 1), 1.5));
-  line(pen, outline(frame.pose, 0), ink('robot'), 2.5);
-  const [x, y, h] = frame.pose;
-  line(pen, [[x, y], [x + hello.front_m * Math.cos(h), y + hello.front_m * Math.sin(h)]], ink('robot'), 2.5);
+  const [x, y, h] = frame.pose, c = Math.cos(h), s = Math.sin(h), f = hello.front_m, r = -hello.rear_m, w = hello.half_width_m;
+  const line_of = corners => line(pen, corners.map(([a, b]) => [x + c * a - s * b, y + s * a + c * b]), ink('robot'), 2.5);
+  line_of([[f, w], [f, -w], [r, -w], [r, w], [f, w]]);
+  line_of([[0, 0], [f, 0]]);
 }
 function draw_goal(pen, [x, y, heading]) {
   disc(pen, x, y, 0.3, tint('goal', 0.25), ink('path'));

@@ -55,7 +55,6 @@ struct dim3 {
 };
 struct cudaLaunchConfig_t {
   dim3 gridDim, blockDim;
-  std::size_t dynamicSmemBytes;
   cudaStream_t stream;
 };
 

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "hal/types/robot_model.h"
-#include "planner/cell/exp_log.h"
+#include "planner/cell/cell.h"
 #include "planner/motion/cost/prices.h"
 #include "planner/motion/situation.h"
 
@@ -42,8 +42,7 @@ class WallCost {
   /// Share of the price near surfaces: 1 on the way to a goal, so that the robot leaves a wall that it stands beside;
   /// in proportion to the speed of the body's edge while a stick steers, so that waiting costs nothing.
   [[nodiscard]] float paid_share(const RobotState& r) const noexcept {
-    const float rim = std::fabs(r.v) + std::fabs(r.w) * s_.body.rim_m;
-    return is_steered() ? std::min(1.0F, rim / s_.body.bounds.speed) : 1.0F;
+    return is_steered() ? std::min(1.0F, s_.body.rim_mps(r) / s_.body.bounds.speed) : 1.0F;
   }
 
   [[nodiscard]] float clearance_at(const RobotState& r, const cell::Heading& along) const noexcept {
@@ -107,7 +106,7 @@ class StopZoneCost {
   /// Slows a step from `before` to `now` as the supervisor will, near what the map may not have.
   void limit(const RobotState& before, RobotState& now, Cost& cost) noexcept {
     cost.stop_zone += price::kBlindRim * s_.body.blind.too_fast(now.v, now.w);
-    const float rim_mps = std::fabs(now.v) + std::fabs(now.w) * s_.body.rim_m;
+    const float rim_mps = s_.body.rim_mps(now);
     if (foreseen_ == 0 || rim_mps < kRestsMps) return;
     --foreseen_;
     const float share = s_.returns.braked_share(now, s_.body);

@@ -4,12 +4,83 @@
 #include <cmath>
 #include <cstdint>
 
-#include "planner/cell/exp_log.h"
-#include "planner/motion/cost/interaction.h"
+#include "planner/cell/cell.h"
+#include "planner/motion/cost/prices.h"
 #include "planner/motion/situation.h"
 #include "planner/prediction/futures.h"
 
 namespace jaywalk::motion {
+
+inline constexpr float kMoverMarginM = 0.035F;
+inline constexpr float kZoneM = 0.5F + 0.1F;  ///< before a mover: where it would turn away, and a margin
+inline constexpr float kZoneSideM = 0.013F;
+
+/// Relation of a disc of the robot to one mover, in all sampled futures at once; sets of futures are a bit each.
+struct Interaction {
+  std::uint32_t met = 0;  ///< touched, or in the quarter circle before the mover while that walks
+  std::uint32_t touched = 0;
+  float nearness = 0.0F;  ///< to those that walk, a sum over futures, m2
+  float beside = 0.0F;    ///< the same of those that stand
+  float too_fast = 0.0F;  ///< beside it while it stands: m/s over what is polite, a sum over futures
+};
+
+/// A disc of the robot, and how fast that drives.
+struct MovingDisc {
+  float x, y, radius_m, speed_mps;
+};
+
+inline Interaction interaction(const MoverAt& at, float mover_m, bool is_surface, const MovingDisc& disc,
+                               float comfort_m) noexcept {
+  const float touch = mover_m + disc.radius_m + kMoverMarginM, touch2 = touch * touch;
+  const float zone = mover_m + kZoneM, edge = disc.radius_m + kZoneSideM;
+  const float comfort2 = comfort_m * comfort_m;
+  const float reach2 = (zone + edge) * (zone + edge), edge2 = edge * edge;
+  alignas(32) std::int32_t hit[kFutures], faced[kFutures];
+  alignas(32) float near[kFutures], fast[kFutures];
+  for (int k = 0; k < kFutures; ++k) {
+    const float dx = disc.x - at.x[k], dy = disc.y - at.y[k], d2 = dx * dx + dy * dy;
+    const float ahead = dx * at.along_x[k] + dy * at.along_y[k];
+    const float left = dy * at.along_x[k] - dx * at.along_y[k], aside = left < 0.0F ? -left : left;
+    // Along the quarter circle's side, and off it; beyond the side a disc still reaches in.
+    const float along = (ahead + aside) * 0.70710678F, off = (aside - ahead) * 0.70710678F;
+    const float over = edge2 - off * off;
+    const float first = along - std::sqrt(over > 0.0F ? over : 0.0F);
+    const std::int32_t inside = (aside <= ahead) & (d2 < reach2);
+    const std::int32_t beside = (aside > ahead) & (along > 0.0F) & (over > 0.0F) & (first < zone);
+    hit[k] = d2 < touch2 ? 1 : 0;
+    faced[k] = inside | beside;
+    near[k] = d2 < comfort2 ? comfort2 - d2 : 0.0F;
+    const float gap = std::sqrt(d2) - mover_m - disc.radius_m;  // it may set out, and be there within a second
+    const float polite = gap < price::kPoliteMps ? price::kPoliteMps : gap;
+    fast[k] = disc.speed_mps > polite ? disc.speed_mps - polite : 0.0F;
+  }
+  Interaction sum;
+  std::uint32_t touched = 0, in_zone = 0;
+  for (int k = 0; k < kFutures; ++k) {
+    touched |= static_cast<std::uint32_t>(hit[k]) << k;
+    in_zone |= static_cast<std::uint32_t>(faced[k]) << k;
+    const bool walks = (at.walks >> k & 1U) != 0;
+    sum.nearness += walks ? near[k] : 0.0F;
+    sum.beside += walks ? 0.0F : near[k];
+    sum.too_fast += walks ? 0.0F : fast[k];
+  }
+  sum.touched = is_surface ? touched & at.walks : touched;
+  sum.met = sum.touched | (in_zone & at.walks);
+  return sum;
+}
+
+/// Those of `futures` in which the disc is nearer to the mover `at` than it was at `before` to the same mover, `was`.
+inline std::uint32_t nearer(std::uint32_t futures, Place disc, const MoverAt& at, Place before,
+                            const MoverAt& was) noexcept {
+  const auto distance2 = [](Place p, const MoverAt& mover, int k) {
+    const float dx = p.x - mover.x[k], dy = p.y - mover.y[k];
+    return dx * dx + dy * dy;
+  };
+  std::uint32_t are = 0;
+  for (int k = 0; k < kFutures; ++k)
+    are |= static_cast<std::uint32_t>(distance2(disc, at, k) < distance2(before, was, k) ? 1 : 0) << k;
+  return futures & are;
+}
 
 /// The worst level at which the robot meets movers, in each future. A later meeting counts as far as it is worse.
 class WorstMeetings {
@@ -41,19 +112,19 @@ class MoverCost {
     Sum all;
     const BodyDiscs& discs = s_.body.to_movers;
     const int at_step = step < kFutureSteps ? step : kFutureSteps - 1;
-    for (std::size_t m = 0; m < s_.futures.movers(); ++m) {
+    for (std::size_t m = 0; m < s_.futures.movers().size(); ++m) {
       const MoverAt& at = s_.futures.at(at_step, m);
-      const float radius = s_.futures.radius(m);
+      const float radius = s_.futures.movers()[m].radius_m;
       const float most = at.spread + std::max(radius + kZoneM + discs.radius + 0.1F, s_.body.comfort_distance_m);
       for (int k = 0; k < discs.count; ++k) {
         const Place disc = disc_at(r, along, k);
         const float dx = disc.x - at.mid_x, dy = disc.y - at.mid_y;
-        if (dx * dx + dy * dy < most * most) add_disc(r, disc, {k, m}, at, all);
+        if (dx * dx + dy * dy < most * most) add_disc(r, k, disc, m, at, all);
       }
     }
     cost.nearness += (price::kNearMover * all.nearness + price::kTooFast * all.too_fast) /
                      static_cast<float>(kFutures * discs.count);
-    price_meetings(all, rim_mps(r), t, cost);
+    price_meetings(all, s_.body.rim_mps(r), t, cost);
   }
 
  private:
@@ -63,26 +134,21 @@ class MoverCost {
     float nearness = 0.0F, too_fast = 0.0F;
   };
 
-  /// Numbers of a disc of the body and of a mover.
-  struct Pair {
-    int disc;
-    std::size_t mover;
-  };
-
-  void add_disc(const RobotState& r, Place disc, Pair of, const MoverAt& at, Sum& all) const noexcept {
-    const BodyDiscs& discs = s_.body.to_movers;
-    const bool has_stood = s_.futures.has_stood(of.mover);  // a surface until it sets out: standing()
-    const Interaction with = interaction(at, s_.futures.radius(of.mover), s_.futures.is_surface(of.mover),
-                                         {disc.x, disc.y, discs.radius, std::fabs(r.v)}, s_.body.comfort_distance_m);
-    (has_stood ? all.stood : all.met) |= with.met;
-    if (with.touched != 0 && !has_stood && rim_mps(r) > kRestsMps) {
-      const Place before = disc_at(s_.start, cell::heading_at(s_.start.heading), of.disc);
-      all.touched |= nearer(with.touched, disc, at, before, s_.futures.at(0, of.mover));
+  /// `k`: number of a disc of the body, at `disc`; `m`: of a mover, at `at`.
+  void add_disc(const RobotState& r, int k, Place disc, std::size_t m, const MoverAt& at, Sum& all) const noexcept {
+    const Futures::Mover& mover = s_.futures.movers()[m];
+    const Interaction with =
+        interaction(at, mover.radius_m, mover.is_surface, {disc.x, disc.y, s_.body.to_movers.radius, std::fabs(r.v)},
+                    s_.body.comfort_distance_m);
+    (mover.has_stood ? all.stood : all.met) |= with.met;  // a surface until it sets out: standing()
+    if (with.touched != 0 && !mover.has_stood && s_.body.rim_mps(r) > kRestsMps) {
+      const Place before = disc_at(s_.start, cell::heading_at(s_.start.heading), k);
+      all.touched |= nearer(with.touched, disc, at, before, s_.futures.at(0, m));
     }
     // Nearness to standing movers is paid by the metre, so that waiting gains nothing.
-    const float way = std::min(1.0F, rim_mps(r) / s_.body.bounds.speed);
+    const float way = std::min(1.0F, s_.body.rim_mps(r) / s_.body.bounds.speed);
     all.nearness += with.nearness + way * with.beside;
-    if (!s_.futures.is_newcomer(of.mover)) all.too_fast += with.too_fast;
+    if (!mover.is_newcomer) all.too_fast += with.too_fast;
   }
 
   /// Each future's worst meeting counts: the sooner the worse, and contact the faster.
@@ -98,11 +164,6 @@ class MoverCost {
     if (t > kSafeForS) return;
     hit_ |= all.touched;
     cost.hit_share = static_cast<float>(std::popcount(hit_)) / kFutures;
-  }
-
-  /// Speed of the body's fastest point, m/s, about.
-  [[nodiscard]] float rim_mps(const RobotState& r) const noexcept {
-    return std::fabs(r.v) + std::fabs(r.w) * s_.body.rim_m;
   }
 
   [[nodiscard]] Place disc_at(const RobotState& r, const cell::Heading& along, int k) const noexcept {

@@ -1,7 +1,7 @@
 #pragma once
 #include <algorithm>
 
-#include "planner/cell/circle.h"
+#include "planner/cell/cell.h"
 #include "planner/motion/cost/prices.h"
 #include "planner/motion/situation.h"
 

@@ -33,8 +33,8 @@ void check_field(const paper::CellMap& map, const std::string& name, Tally& tall
   CellIndex goal{map.width / 2, map.height / 2};
   if (!cpu->nearest_free(goal, map.width)) return;
   for (const bool cold : {true, false, false}) {
-    const paper::MapQuality a = cold ? cpu->solve_cold(goal) : cpu->solve_warm(goal);
-    const paper::MapQuality b = cold ? gpu->solve_cold(goal) : gpu->solve_warm(goal);
+    const paper::FieldQuality a = cold ? cpu->solve_cold(goal) : cpu->solve_warm(goal);
+    const paper::FieldQuality b = cold ? gpu->solve_cold(goal) : gpu->solve_warm(goal);
     bool is_same = b.certified && a.joined == b.joined && a.cycles == b.cycles;
     for (std::int32_t c = 0; c < map.width * map.height && is_same; ++c) {
       const float x = cpu->psi(c % map.width, c / map.width), y = gpu->psi(c % map.width, c / map.width);

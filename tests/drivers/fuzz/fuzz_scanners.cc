@@ -3,10 +3,8 @@
 #include <cmath>
 #include <string_view>
 
-#include "drivers/laser/ldrobot.h"
-#include "drivers/laser/lms200.h"
-#include "drivers/laser/rplidar.h"
 #include "drivers/laser/scip.h"
+#include "drivers/laser/serial_scanners.h"
 #include "drivers/laser/sick.h"
 #include "drivers/ros/ros_scan.h"
 #include "tests/drivers/fuzz/fuzz_targets.h"

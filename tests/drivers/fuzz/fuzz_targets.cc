@@ -18,7 +18,7 @@
 #include "drivers/motor/odrive.h"
 #include "drivers/motor/vesc.h"
 #include "hal/types/errors.h"
-#include "hil/emulators/drive_objects.h"
+#include "hil/emulators/cia402_node.h"
 #include "tests/drivers/eds_file.h"
 
 namespace jaywalk::tests {
