@@ -52,13 +52,28 @@ Time last_seen(const StandingPedestrian& pedestrian, const Targets& targets, Tim
 StandingPedestrian follow(Target& target, const StandingCandidates& before, Time now) {
   const Track& seen = target.estimate.as_seen;
   PedestrianBelief& belief = target.existence.pedestrian;
-  Time since = now;
+  const Time still = target.estimate.track.still_since;
+  Time since = still == kNever ? now : std::min(now, still);
   for (const StandingPedestrian& one : before) {
     if (distance(one.position_in_map, seen.position_in_map) >= kSkinM) continue;
     since = std::min(since, one.since);
     belief.inherit(one.belief);
   }
   return {seen.position_in_map, target.estimate.track.radius_m, seen.last_seen, since, belief, true};
+}
+
+/// Bodies do not overlap: of two pedestrians too near to be two, the one seen last is left, since the earlier's time.
+bool is_another(const StandingPedestrian& one, StandingCandidates& others) {
+  if (!one.belief.is_pedestrian()) return false;
+  for (StandingPedestrian& other : others) {
+    if (!other.belief.is_pedestrian() || distance(other.position_in_map, one.position_in_map) >= kSamePedestrianM)
+      continue;
+    const Time since = std::min(other.since, one.since);
+    if (!other.followed && one.last_seen > other.last_seen) other = one;
+    other.since = since;
+    return true;
+  }
+  return false;
 }
 
 }  // namespace
@@ -130,7 +145,7 @@ void update_standing(Targets& targets, const EvidenceMap& still, const LineOfSig
     one.last_seen = last_seen(one, targets, now);
     one.followed = false;
     const bool stays = something_stands(one, still) || may_be_hidden(one, sight, now);
-    if (stays && !is_tracked(one, targets)) (void)all.push_back(one);
+    if (stays && !is_tracked(one, targets) && !is_another(one, all)) (void)all.push_back(one);
   }
   standing.clear();
   for (const bool pedestrians : {true, false}) {

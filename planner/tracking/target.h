@@ -54,7 +54,7 @@ struct Estimate {
   Track track;
   Track as_seen;  ///< the track as it was when a scan saw it last
   ImmFilter filter;
-  Vec2 still_at;  ///< m in the map: near there the track has been since Track::still_since
+  Vec2 still_at;  ///< m in the map: near there, or creeping on from there, the track has been since Track::still_since
   /// How far its middle may be from where it is seen, m an axis, scan after scan: its width is known to half a beam's
   /// spacing, or not at all. A filter of positions follows what is seen and cannot tell; it is added to what is
   /// published, as a bias that is considered and not estimated (Schmidt 1966).

@@ -84,7 +84,8 @@ void Tracker::leave_hidden(const Target& target) noexcept {
   const Track& seen = target.estimate.as_seen;
   hidden_.remember(target);
   if (norm(seen.velocity_in_map) < kStoppedMps)
-    (void)candidates_.push_back({seen.position_in_map, target.estimate.track.radius_m, seen.last_seen, kNever,
+    (void)candidates_.push_back({seen.position_in_map, target.estimate.track.radius_m, seen.last_seen,
+                                 target.estimate.track.still_since,
                                  target.existence.pedestrian});  // or has as many already
 }
 
@@ -142,14 +143,19 @@ void Tracker::enter_still() noexcept {
 void Tracker::note_history(Target& target) const noexcept {
   Estimate& estimate = target.estimate;
   Track& track = estimate.track;
-  const auto is_here = [&](const StandingPedestrian& p) {
+  const auto known = std::find_if(standing_.begin(), standing_.end(), [&](const StandingPedestrian& p) {
     return distance(p.position_in_map, track.position_in_map) < kSamePedestrianM;
-  };
-  track.is_pedestrian = track.moving || target.existence.pedestrian.is_pedestrian() ||
-                        std::any_of(standing_.begin(), standing_.end(), is_here);
-  if (track.still_since != kNever && distance(track.position_in_map, estimate.still_at) <= kStandsWithinM) return;
-  estimate.still_at = track.position_in_map;
-  track.still_since = told_;
+  });
+  const bool is_known = known != standing_.end();
+  track.is_pedestrian = track.moving || is_known || target.existence.pedestrian.is_pedestrian();
+  const Vec2 off = track.position_in_map - estimate.still_at;
+  const double crept_m = kStartsMps * step_s_;  // creeping is standing
+  if (track.still_since == kNever || norm(off) > kStandsWithinM) {
+    track.still_since = track.still_since == kNever && is_known ? std::min(known->since, told_) : told_;
+    estimate.still_at = track.position_in_map;
+  } else if (norm(off) > crept_m) {
+    estimate.still_at = estimate.still_at + off * (crept_m / norm(off));
+  }
 }
 
 void Tracker::publish() noexcept {

@@ -132,9 +132,8 @@ void check_leaves(const RobotModel& model, int trials) {
 
 }  // namespace
 
-TEST_CASE("from six random starts beside walls a P3-DX leaves and touches nothing") { check_leaves(p3dx(), 6); }
-TEST_CASE("from six random starts beside walls a wheelchair leaves and touches nothing") {
-  check_leaves(wheelchair(), 6);
+TEST_CASE("from six random starts beside walls a robot leaves and touches nothing") {
+  check_leaves(GENERATE(p3dx(), wheelchair()), 6);
 }
 TEST_CASE("from a hundred random starts beside walls a P3-DX leaves and touches nothing", "[long]") {
   check_leaves(p3dx(), 100);

@@ -77,17 +77,14 @@ Coming come_to(const RobotModel& model, double from_wall_m, double start_y) {
 }  // namespace
 
 TEST_CASE("a goal with its heading straight ahead is not driven past, a wall half a metre before the body or none") {
-  for (const RobotModel& model : {p3dx(), wheelchair()}) {
-    for (const double room_m : {0.5, 1.0}) {
-      for (const double start_y : {2.6, 2.4}) {
-        CAPTURE(model.name, room_m, start_y);
-        const Coming coming = come_to(model, model.footprint.front_m + room_m, start_y);
-        CHECK(coming.arrived);
-        CHECK(coming.past_m < 0.15);
-        CHECK(coming.reversals <= 1);
-      }
-    }
-  }
+  const RobotModel model = GENERATE(p3dx(), wheelchair());
+  const double room_m = GENERATE(0.5, 1.0);
+  const double start_y = GENERATE(2.6, 2.4);
+  CAPTURE(model.name, room_m, start_y);
+  const Coming coming = come_to(model, model.footprint.front_m + room_m, start_y);
+  CHECK(coming.arrived);
+  CHECK(coming.past_m < 0.15);
+  CHECK(coming.reversals <= 1);
 }
 
 TEST_CASE("where the body has no room as it is to stand at the goal, the robot stands and the plan has no path") {

@@ -17,49 +17,28 @@ TYPES = {"/scan": "sensor_msgs/LaserScan", "/scan_rear": "sensor_msgs/LaserScan"
          "/tf_static": "tf2_msgs/TFMessage", "/chatter": "std_msgs/String"}
 
 
-class Cdr:
-    """OMG's CDR, little endian."""
+class Message:
+    """Fields in OMG's CDR, little endian, or as ROS 1 has them: packed."""
 
-    def __init__(self):
-        self.bytes = bytearray()
+    def __init__(self, ros1=False):
+        self.ros1, self.bytes = ros1, bytearray()
 
     def put(self, code, *values):
-        size = struct.calcsize("<" + code)
+        size = 1 if self.ros1 else struct.calcsize("<" + code)
         for value in values:
             self.bytes += b"\0" * (-len(self.bytes) % size) + struct.pack("<" + code, value)
 
     def text(self, text):
-        self.put("I", len(text) + 1)
-        self.bytes += text.encode() + b"\0"
+        end = b"" if self.ros1 else b"\0"
+        self.put("I", len(text) + len(end))
+        self.bytes += text.encode() + end
 
     def header(self, ns, frame):
-        self.put("i", ns // 10**9)
-        self.put("I", ns % 10**9)
+        self.put("I", *[0] * self.ros1, ns // 10**9, ns % 10**9)
         self.text(frame)
 
     def message(self):
-        return b"\0\1\0\0" + bytes(self.bytes)
-
-
-class Ros1:
-    """ROS 1: little endian, packed."""
-
-    def __init__(self):
-        self.bytes = bytearray()
-
-    def put(self, code, *values):
-        self.bytes += struct.pack("<" + code * len(values), *values)
-
-    def text(self, text):
-        self.put("I", len(text))
-        self.bytes += text.encode()
-
-    def header(self, ns, frame):
-        self.put("I", 0, ns // 10**9, ns % 10**9)
-        self.text(frame)
-
-    def message(self):
-        return bytes(self.bytes)
+        return (b"" if self.ros1 else b"\0\1\0\0") + bytes(self.bytes)
 
 
 def turn(out, yaw):
@@ -125,7 +104,7 @@ def write_ros1(path, events):
             known.add(topic)
             time = struct.pack("<II", ns // 10**9, ns % 10**9)
             head = fields(op=b"\2", conn=struct.pack("<I", numbers[topic]), time=time)
-            inner += sized(head) + sized(make(Ros1(), ns, words))
+            inner += sized(head) + sized(make(Message(ros1=True), ns, words))
         packed = bz2.compress(inner) if method == b"bz2" else inner
         return sized(fields(op=b"\5", compression=method, size=struct.pack("<I", len(inner)))) + sized(packed)
 
@@ -150,7 +129,7 @@ def write_mcap(path, events):
         records += record(3, struct.pack("<H", number) + sized(name) + sized(b"ros2msg") + sized(b""))
         records += record(4, struct.pack("<HH", number, number) + sized(topic.encode()) + sized(b"cdr") + sized(b""))
     for ns, topic, make, words in events:
-        records += record(5, struct.pack("<HIQQ", numbers[topic], 0, ns, ns) + make(Cdr(), ns, words))
+        records += record(5, struct.pack("<HIQQ", numbers[topic], 0, ns, ns) + make(Message(), ns, words))
     chunk = struct.pack("<QQQI", events[0][0], events[-1][0], len(records), zlib.crc32(records)) + sized(b"")
     data = b"\x89MCAP0\r\n" + record(1, sized(b"ros2") + sized(b"test"))
     data += record(6, chunk + struct.pack("<Q", len(records)) + records)
@@ -177,7 +156,7 @@ def write_ros2(folder, events):
                      (number, topic, TYPES[topic].replace("/", "/msg/")))
     for ns, topic, make, words in events:
         base.execute("INSERT INTO messages(topic_id, timestamp, data) VALUES(?, ?, ?)",
-                     (numbers[topic], ns, make(Cdr(), ns, words)))
+                     (numbers[topic], ns, make(Message(), ns, words)))
     base.commit()
     base.close()
 

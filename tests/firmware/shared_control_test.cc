@@ -22,16 +22,14 @@ bool arrives(const std::string& scenario, const RobotModel& model, std::uint64_t
 }  // namespace
 
 TEST_CASE("full ahead into a wall, by either mode, the robot stands before it and touches nothing") {
-  for (const RobotModel& model : {p3dx(), wheelchair()}) {
-    for (const StickUse steering : {StickUse::kShared, StickUse::kByHand}) {
-      SimulatedDrive drive("stick_wall", 5, [&](sim::Scenario& s) { s.model = model, s.stick->steering = steering; });
-      drive.drive(15.0, [&](const TickRecord&) { return drive.truth().contacts > 0; });
-      CAPTURE(model.name);
-      CHECK(drive.truth().contacts == 0);
-      CHECK(drive.truth().clearance_m < 0.2);
-      CHECK(std::fabs(drive.truth().twist.v_mps) < 0.02);
-    }
-  }
+  const RobotModel model = GENERATE(p3dx(), wheelchair());
+  const StickUse steering = GENERATE(StickUse::kShared, StickUse::kByHand);
+  SimulatedDrive drive("stick_wall", 5, [&](sim::Scenario& s) { s.model = model, s.stick->steering = steering; });
+  drive.drive(15.0, [&](const TickRecord&) { return drive.truth().contacts > 0; });
+  CAPTURE(model.name);
+  CHECK(drive.truth().contacts == 0);
+  CHECK(drive.truth().clearance_m < 0.2);
+  CHECK(std::fabs(drive.truth().twist.v_mps) < 0.02);
 }
 
 TEST_CASE("a door of 0.90 m that lies 10 cm beside the way of a stick held straight is passed") {

@@ -32,25 +32,23 @@ TEST_CASE("a recording of two scanners comes to the same commands again") {
 }
 
 TEST_CASE("either of two scanners that is lost or frozen stops it, and it goes on once that is over") {
-  for (const sim::FaultKind kind : {sim::FaultKind::kScanStale, sim::FaultKind::kScanFrozen}) {
-    for (const int lost : {1, 2}) {
-      SimulatedDrive drive("map1_00", 1, [&](sim::Scenario& scenario) {
-        add_rear(scenario);
-        scenario.faults = {{.at_s = 5.0, .for_s = 3.0, .kind = kind, .scanner = lost}};
-      });
-      drive.drive(5.0);
-      REQUIRE(drive.truth().twist.v_mps > 0.3);
-      const Reason reason = kind == sim::FaultKind::kScanStale ? Reason::kScanStale : Reason::kScanFrozen;
-      bool named = false;
-      drive.drive(2.5, [&](const TickRecord& t) {
-        named = named || (has(t.verdict.reasons, reason) && t.verdict.faulty_scanners == 1U << (lost - 1));
-        return false;
-      });
-      CHECK(named);
-      CHECK(drive.truth().twist.v_mps < 0.01);
-      CHECK(drive.drive(5.0, [&](const TickRecord&) { return drive.truth().twist.v_mps > 0.3; }));
-    }
-  }
+  const auto [kind, reason] = GENERATE(std::pair{sim::FaultKind::kScanStale, Reason::kScanStale},
+                                       std::pair{sim::FaultKind::kScanFrozen, Reason::kScanFrozen});
+  const int lost = GENERATE(1, 2);
+  SimulatedDrive drive("map1_00", 1, [&, kind = kind](sim::Scenario& scenario) {
+    add_rear(scenario);
+    scenario.faults = {{.at_s = 5.0, .for_s = 3.0, .kind = kind, .scanner = lost}};
+  });
+  drive.drive(5.0);
+  REQUIRE(drive.truth().twist.v_mps > 0.3);
+  bool named = false;
+  drive.drive(2.5, [&, reason = reason](const TickRecord& t) {
+    named = named || (has(t.verdict.reasons, reason) && t.verdict.faulty_scanners == 1U << (lost - 1));
+    return false;
+  });
+  CHECK(named);
+  CHECK(drive.truth().twist.v_mps < 0.01);
+  CHECK(drive.drive(5.0, [&](const TickRecord&) { return drive.truth().twist.v_mps > 0.3; }));
 }
 
 TEST_CASE("a robot is not driven with another number of scanners than it has") {

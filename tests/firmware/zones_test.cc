@@ -53,57 +53,53 @@ Driven drive(const RobotModel& model, const std::function<void(sim::Scenario&)>&
 }  // namespace
 
 TEST_CASE("a robot drives round a keep-out zone and slowly through a speed zone") {
-  for (const RobotModel& model : {p3dx(), wheelchair()}) {
-    INFO(model.name);
-    const Driven done = drive(model);
-    CHECK(done.arrived);
-    CHECK(done.nearest_m > 0.0);
-    CHECK(done.fastest_inside > 0.2);
-    CHECK(done.fastest_inside < 0.26);  // 0.25 m/s, and the wheels' slip
-  }
+  const RobotModel model = GENERATE(p3dx(), wheelchair());
+  INFO(model.name);
+  const Driven done = drive(model);
+  CHECK(done.arrived);
+  CHECK(done.nearest_m > 0.0);
+  CHECK(done.fastest_inside > 0.2);
+  CHECK(done.fastest_inside < 0.26);  // 0.25 m/s, and the wheels' slip
 }
 
 TEST_CASE("a robot that starts in a keep-out zone leaves it") {
-  for (const RobotModel& model : {p3dx(), wheelchair()}) {
-    INFO(model.name);
-    const auto in_zone = [](sim::Scenario& s) {
-      s.zones = {box({0.8, 1.5}, {4.0, 5.0}), box({30.0, 0.0}, {31.0, 1.0}, ZoneKind::kSpeed, 0.3)};
-      s.goal = {8.0, 7.0};
-    };
-    CHECK(drive(model, in_zone, 90.0).arrived);
-  }
+  const RobotModel model = GENERATE(p3dx(), wheelchair());
+  INFO(model.name);
+  const auto in_zone = [](sim::Scenario& s) {
+    s.zones = {box({0.8, 1.5}, {4.0, 5.0}), box({30.0, 0.0}, {31.0, 1.0}, ZoneKind::kSpeed, 0.3)};
+    s.goal = {8.0, 7.0};
+  };
+  CHECK(drive(model, in_zone, 90.0).arrived);
 }
 
 TEST_CASE("where a keep-out zone closes the only way the robot stays outside") {
-  for (const RobotModel& model : {p3dx(), wheelchair()}) {
-    INFO(model.name);
-    const auto closed = [](sim::Scenario& s) {
-      s.zones = {box({4.0, 0.0}, {6.0, 14.0}), box({30.0, 0.0}, {31.0, 1.0}, ZoneKind::kSpeed, 0.3)};
-    };
-    const Driven done = drive(model, closed, 25.0);
-    CHECK_FALSE(done.arrived);
-    CHECK(done.nearest_m > 0.0);
-  }
+  const RobotModel model = GENERATE(p3dx(), wheelchair());
+  INFO(model.name);
+  const auto closed = [](sim::Scenario& s) {
+    s.zones = {box({4.0, 0.0}, {6.0, 14.0}), box({30.0, 0.0}, {31.0, 1.0}, ZoneKind::kSpeed, 0.3)};
+  };
+  const Driven done = drive(model, closed, 25.0);
+  CHECK_FALSE(done.arrived);
+  CHECK(done.nearest_m > 0.0);
 }
 
 TEST_CASE("a robot that is driven by a stick stops before a keep-out zone, and is as slow as a speed zone wants") {
-  for (const RobotModel& model : {p3dx(), wheelchair()}) {
-    INFO(model.name);
-    const MapZone closed = box({2.9, 0.0}, {3.4, 2.6}), slow = box({0.0, 0.0}, {2.9, 2.6}, ZoneKind::kSpeed, 0.2);
-    SimulatedDrive drive("stick_wall", 1, [&](sim::Scenario& s) {
-      s.model = model;
-      s.zones = {closed, slow};
-    });
-    double nearest_m = 1e9, fastest_mps = 0.0;
-    drive.drive(12.0, [&](const TickRecord&) {
-      const sim::Truth& truth = drive.truth();
-      nearest_m = std::min(nearest_m, body_to_zone_m(closed, truth.map_from_robot, model.footprint));
-      fastest_mps = std::max(fastest_mps, std::fabs(truth.twist.v_mps));
-      return false;
-    });
-    CHECK(nearest_m > 0.0);
-    CHECK(nearest_m < 0.4);  // it came there
-    CHECK(fastest_mps > 0.15);
-    CHECK(fastest_mps < 0.21);
-  }
+  const RobotModel model = GENERATE(p3dx(), wheelchair());
+  INFO(model.name);
+  const MapZone closed = box({2.9, 0.0}, {3.4, 2.6}), slow = box({0.0, 0.0}, {2.9, 2.6}, ZoneKind::kSpeed, 0.2);
+  SimulatedDrive drive("stick_wall", 1, [&](sim::Scenario& s) {
+    s.model = model;
+    s.zones = {closed, slow};
+  });
+  double nearest_m = 1e9, fastest_mps = 0.0;
+  drive.drive(12.0, [&](const TickRecord&) {
+    const sim::Truth& truth = drive.truth();
+    nearest_m = std::min(nearest_m, body_to_zone_m(closed, truth.map_from_robot, model.footprint));
+    fastest_mps = std::max(fastest_mps, std::fabs(truth.twist.v_mps));
+    return false;
+  });
+  CHECK(nearest_m > 0.0);
+  CHECK(nearest_m < 0.4);  // it came there
+  CHECK(fastest_mps > 0.15);
+  CHECK(fastest_mps < 0.21);
 }

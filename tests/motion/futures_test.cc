@@ -9,6 +9,7 @@
 
 #include "planner/prediction/mover_history.h"
 #include "tests/motion/guided.h"
+#include "tests/motion/track_past.h"
 #include "tests/safety/scans.h"
 #include "tests/support/catch.h"
 
@@ -32,17 +33,10 @@ MoverBelief walking(std::uint32_t id, float x, float y, float vx, float vy) {
 
 /// A step of Seen with one track.
 Track track_at(std::uint32_t id, Vec2 place, Vec2 velocity, Time stamp) {
-  return {.id = id,
-          .stamp = stamp,
-          .position_in_map = place,
-          .velocity_in_map = velocity,
-          .covariance = {1e-4, 1e-5, 1e-3},
-          .radius_m = 0.27,
-          .moving = norm(velocity) > 0.15,
-          .is_pedestrian = norm(velocity) > 0.0,
-          .still_since = stamp,
-          .hits = 20,
-          .last_seen = stamp};
+  Track track = tests::TrackPast().of(place, velocity, stamp);
+  track.id = id;
+  track.is_pedestrian = norm(velocity) > 0.0;
+  return track;
 }
 
 /// Futures on open ground, or before a wall at x = 2 m.

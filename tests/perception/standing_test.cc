@@ -1,4 +1,5 @@
 #include "planner/tracking/occlusion.h"
+#include "planner/tracking/tuning.h"
 #include "tests/perception/watch.h"
 #include "tests/support/catch.h"
 
@@ -60,6 +61,31 @@ TEST_CASE("who stands on two legs may be a pedestrian, as wide as people, for as
   CHECK(watch.tracker.tracks().empty());  // the map has his legs by now, and no more of him
   watch.look_round();
   CHECK(watch.tracker.standing().empty());
+}
+
+TEST_CASE("a pedestrian that shuffles about where it stands is one body, and has stood all the while") {
+  SettledWatch watch;
+  for (int scan = 0; scan < 15 * 6; ++scan) watch.see(with_legs(kPlace));
+  const Time since = only_standing(watch).since;
+  const double way_rad = GENERATE(0.0, 1.6, 3.1, 4.7);
+  const Vec2 step = direction(way_rad) * (0.06 / 15.0);
+  CAPTURE(way_rad);
+  for (int scan = 1; scan <= 15 * 12; ++scan) {
+    const Vec2 place = kPlace + step * scan;
+    watch.see(with_legs(place));
+    std::size_t bodies = 0;
+    for (const Track& track : watch.tracker.tracks()) {
+      CHECK(distance(track.position_in_map, place) < kSamePedestrianM);
+      CHECK(to_seconds(track.still_since - since) < 3.0);
+      ++bodies;
+    }
+    for (const StandingPedestrian& one : watch.tracker.standing()) {
+      CHECK(distance(one.position_in_map, place) < kSamePedestrianM);
+      CHECK(to_seconds(one.since - since) < 3.0);
+      if (track_near(watch.tracker.tracks(), one.position_in_map, kSamePedestrianM) == nullptr) ++bodies;
+    }
+    CHECK(bodies <= 1);  // sideways, its legs are the map's alone for a while
+  }
 }
 
 TEST_CASE("who is hidden where he stood stands for eight seconds yet, and no longer than his place is out of sight") {
@@ -154,9 +180,10 @@ TEST_CASE("he is where he was seen last, wherever his track has gone meanwhile")
 TEST_CASE("when there is no room left those who are followed have it") {
   StandingCandidates standing;
   const EvidenceMap map = map_with(kShinM);
-  const PedestrianBelief walked = somebody_at(kPlace)[0].existence.pedestrian;
+  PedestrianBelief doubtful;  // two pedestrians in one place would be one
+  doubtful.look(true, 0.0, time_from_seconds(0.0));
   for (std::size_t k = 0; k < standing.capacity(); ++k)
-    (void)standing.push_back({kPlace, 0.25, kNever, kNever, walked});
+    (void)standing.push_back({kPlace, 0.25, kNever, kNever, doubtful});
   note(somebody_at(kPlace + Vec2{5.0, 0.0}), map, standing);
   CHECK(standing.full());
   CHECK(standing[0].position_in_map == kPlace + Vec2{5.0, 0.0});

@@ -139,12 +139,9 @@ TEST_CASE("wheels that turn though they are commanded to stand are told, on eith
   FeltMotion felt(kWheels, kLimits);
   double told_s = 0.0;
   for (double t = 0.0; told_s == 0.0 && t < 2.0; t += 0.02) {
-    const WheelState wheels{.stamp = time_from_seconds(t),
-                            .sequence = 1,
-                            .left_rad = left ? 10.0 * felt_mps * t : 0.0,
-                            .right_rad = left ? 0.0 : 10.0 * felt_mps * t,
-                            .left_radps = left ? 10.0 * felt_mps : 0.0,
-                            .right_radps = left ? 0.0 : 10.0 * felt_mps};
+    WheelState wheels{.stamp = time_from_seconds(t), .sequence = 1};
+    (left ? wheels.left_rad : wheels.right_rad) = 10.0 * felt_mps * t;
+    (left ? wheels.left_radps : wheels.right_radps) = 10.0 * felt_mps;
     if (felt.disobeys({}, wheels, time_from_seconds(t))) told_s = t;
   }
   CHECK(told_s > 0.1);  // 0.18 m/s too much for 0.167 s is 0.03 m

@@ -26,9 +26,8 @@ class Eye {
 
   /// The next scan as the filter leaves it, after the robot went so far by its wheels.
   const LaserScan& next(double way_m = 0.0, double turn_rad = 0.0) {
-    pose.heading += 0.5 * turn_rad;
-    pose.x += way_m * std::cos(pose.heading), pose.y += way_m * std::sin(pose.heading);
-    pose.heading += 0.5 * turn_rad;
+    const Vec2 way = direction(pose.heading + 0.5 * turn_rad) * way_m;
+    pose = {pose.x + way.x, pose.y + way.y, pose.heading + turn_rad};
     const double half_track_m = 0.5 * model_.drive.track_width_m, radius_m = model_.drive.wheel_radius_m;
     wheels_.left_rad += (way_m - half_track_m * turn_rad) / radius_m;
     wheels_.right_rad += (way_m + half_track_m * turn_rad) / radius_m;
@@ -36,10 +35,9 @@ class Eye {
     wheels_.stamp = scan_.stamp = now_;
     ++wheels_.sequence, ++scan_.sequence;
     for (std::size_t k = 0; k < scan_.beam_count; ++k) {
-      const double way = pose.heading + scan_.angle_rad(k);
+      const Vec2 along = direction(pose.heading + scan_.angle_rad(k));
       double range = 1e9;
-      for (const Obstacle& thing : things)
-        range = std::min(range, thing.ray(pose.position(), {std::cos(way), std::sin(way)}));
+      for (const Obstacle& thing : things) range = std::min(range, thing.ray(pose.position(), along));
       scan_.range_m[k] = range < 10.0 ? static_cast<float>(range + 0.01 * noise_(random_)) : kFree;
     }
     spoil(scan_);
@@ -47,9 +45,8 @@ class Eye {
     return scan_;
   }
   [[nodiscard]] int doubted() const {
-    int count = 0;
-    for (std::size_t k = 0; k < scan_.beam_count; ++k) count += scan_.range_m[k] == 0.0F ? 1 : 0;
-    return count;
+    const auto ranges = std::span(scan_.range_m).first(scan_.beam_count);
+    return static_cast<int>(std::ranges::count(ranges, 0.0F));
   }
   [[nodiscard]] const WheelState& wheels() const { return wheels_; }
   [[nodiscard]] const RobotModel& robot() const { return model_; }

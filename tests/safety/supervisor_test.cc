@@ -3,13 +3,6 @@
 using namespace jaywalk;
 using namespace jaywalk::supervised;
 
-TEST_CASE("what is safe is permitted as it is, without a reason") {
-  Bench bench;
-  const Verdict verdict = bench.tick({0.5, 0.3});
-  CHECK(verdict.permitted == Twist2{0.5, 0.3});
-  CHECK(verdict.reasons == Reason::kNone);
-}
-
 TEST_CASE("a speed zone's limit holds either way, on the same arc, with its reason") {
   Bench bench;
   bench.most_speed_mps = 0.2;
@@ -41,45 +34,42 @@ TEST_CASE("stopping never brakes harder than the drive: 1 m/s2 is 0.02 m/s a tic
   CHECK(bench.tick({0.5, 0.0}).permitted.v_mps == Approx(0.46));
 }
 
-TEST_CASE("old wheels, no wheels and a twist that is no number stop") {
-  Bench bench;
-  bench.wheels_fresh = false;
-  CHECK(has(bench.ticks(4, {0.5, 0.0}).reasons, Reason::kWheelsStale));
-  Bench other;
-  const Verdict verdict = other.tick({std::nan(""), 0.0});
+TEST_CASE("what is old, stamped ahead of now or no number stops the robot and says what it is") {
+  using namespace std::chrono_literals;
+  struct Row {
+    const char* name;
+    void (*spoil)(Bench&);
+    Reason reason;
+    int ticks = 1;
+  };
+  const Row rows[] = {
+      {"old wheels", [](Bench& b) { b.wheels_fresh = false; }, Reason::kWheelsStale, 4},
+      {"a scan that says it took minutes", [](Bench& b) { b.scan_fresh = false, b.scan.sweep = 5min; },
+       Reason::kScanStale, 30},
+      {"a scan from ahead", [](Bench& b) { b.scan_fresh = false, b.scan.stamp += 1s; }, Reason::kScanStale, 2},
+      {"wheels from ahead", [](Bench& b) { b.wheels_fresh = false, b.wheels.stamp += 1s; }, Reason::kWheelsStale},
+      {"a plan from ahead", [](Bench& b) { b.plan_fresh = false, b.plan_stamp += 1s; }, Reason::kPlanStale},
+      {"a scan's first angle", [](Bench& b) { b.scan.first_angle_rad = std::nanf(""); }, Reason::kScanInvalid},
+      {"a scan's step", [](Bench& b) { b.scan.angle_step_rad = std::nanf(""); }, Reason::kScanInvalid},
+      {"a wheel's angle", [](Bench& b) { b.wheels.left_rad = std::nan(""); }, Reason::kWheelsInvalid}};
+  for (const Row& row : rows) {
+    CAPTURE(row.name);
+    Bench bench;
+    row.spoil(bench);
+    const Verdict verdict = bench.ticks(row.ticks, {0.5, 0.0});
+    CHECK(has(verdict.reasons, row.reason));
+    if (row.reason == Reason::kWheelsInvalid) CHECK(verdict.permitted == Twist2{});
+  }
+  const Verdict verdict = Bench().tick({std::nan(""), 0.0});
   CHECK(has(verdict.reasons, Reason::kNotFinite));
   CHECK(verdict.permitted == Twist2{});
 }
 
-TEST_CASE("what is stamped ahead of now is as good as never seen, but for what a late loop may see") {
-  const Duration ahead = std::chrono::seconds(1);
-  Bench scans, wheels, plans, late;
-  scans.scan_fresh = wheels.wheels_fresh = plans.plan_fresh = late.wheels_fresh = false;
-  scans.scan.stamp += ahead, wheels.wheels.stamp += ahead, plans.plan_stamp += ahead;
+TEST_CASE("wheels that are stamped ahead by what a late loop may see are no fault") {
+  Bench late;
+  late.wheels_fresh = false;
   late.wheels.stamp += std::chrono::milliseconds(60);
-  CHECK(has(scans.ticks(2, {0.5, 0.0}).reasons, Reason::kScanStale));
-  CHECK(has(wheels.tick({0.5, 0.0}).reasons, Reason::kWheelsStale));
-  CHECK(has(plans.tick({0.5, 0.0}).reasons, Reason::kPlanStale));
   CHECK(late.tick({0.5, 0.0}).reasons == Reason::kNone);
-}
-
-TEST_CASE("angles that are no numbers stop, a scan's and the wheels'") {
-  const float nan = std::nanf("");
-  Bench first, step, wheel;
-  first.scan.first_angle_rad = step.scan.angle_step_rad = nan;
-  wheel.wheels.left_rad = std::nan("");
-  CHECK(has(first.tick({0.5, 0.0}).reasons, Reason::kScanInvalid));
-  CHECK(has(step.tick({0.5, 0.0}).reasons, Reason::kScanInvalid));
-  const Verdict verdict = wheel.tick({0.5, 0.0});
-  CHECK(has(verdict.reasons, Reason::kWheelsInvalid));
-  CHECK(verdict.permitted == Twist2{});
-}
-
-TEST_CASE("a scan that says it took minutes grows old all the same") {
-  Bench bench;
-  bench.scan_fresh = false;
-  bench.scan.sweep = std::chrono::minutes(5);
-  CHECK(has(bench.ticks(30, {0.5, 0.0}).reasons, Reason::kScanStale));
 }
 
 TEST_CASE("an ageing plan slows the robot to a stop: half speed at 0.65 s, none at 1 s") {
@@ -221,7 +211,7 @@ TEST_CASE("trouble of bus or drive stops, says which, and is latched until a res
   CHECK(bench.tick({0.01, 0.0}).permitted.v_mps == 0.01);
 }
 
-TEST_CASE("one missed tick is nothing, two in a row stop the robot until a reset") {
+TEST_CASE("one missed tick is nothing, two in a row, or every other one, stop the robot until a reset") {
   Bench bench;
   bench.tick({0.3, 0.0});
   bench.now += std::chrono::milliseconds(20);  // with tick's own 20 ms: one of 50 Hz did not happen
@@ -232,11 +222,6 @@ TEST_CASE("one missed tick is nothing, two in a row stop the robot until a reset
   CHECK(bench.ticks(30, {0.3, 0.0}).reasons == Reason::kLatched);
   bench.reset();
   CHECK(bench.tick({0.01, 0.0}).permitted.v_mps == 0.01);
-}
-
-TEST_CASE("every other tick missed counts as missed in a row") {
-  Bench bench;
-  bench.tick({0.3, 0.0});
   bench.now += std::chrono::milliseconds(20);
   bench.tick({0.3, 0.0});
   bench.now += std::chrono::milliseconds(20);
@@ -273,4 +258,63 @@ TEST_CASE("a scan is as old as its last beam, and the stop zone reckons with its
   bench.scan_fresh = false;
   CHECK_FALSE(has(bench.ticks(10, {0.1, 0.0}).reasons, Reason::kScanStale));  // 200 ms after its first beam
   CHECK(has(bench.tick({0.1, 0.0}).reasons, Reason::kScanStale));
+}
+
+// What a reset waits for.
+
+TEST_CASE("an emergency stop is latched until a reset edge at zero setpoint with the button out") {
+  Bench bench;
+  bench.input.emergency_stop = true;
+  bench.ticks(3, {0.5, 0.0});
+  bench.input.reset = true;  // pressed while the button is in: no edge later counts from this
+  bench.tick({});
+  bench.input.emergency_stop = false;
+  CHECK(has(bench.ticks(3, {0.5, 0.0}).reasons, Reason::kLatched));
+  bench.input.reset = false;
+  bench.tick({});
+  bench.input.reset = true;
+  CHECK(has(bench.tick({0.5, 0.0}).reasons, Reason::kLatched));  // an edge, but not at zero
+  bench.input.reset = false;
+  bench.tick({});
+  bench.input.reset = true;
+  bench.tick({});
+  CHECK(bench.supervisor.mode() != Mode::kLatched);
+  CHECK(bench.tick({0.01, 0.0}).permitted.v_mps == 0.01);
+}
+
+TEST_CASE("a pose in doubt is latched, and no reset moves the robot before it is known") {
+  Bench bench;
+  bench.ticks(30, {0.5, 0.0});
+  bench.pose_doubtful = true;
+  bench.ticks(50, {0.5, 0.0});
+  bench.reset();
+  const Verdict verdict = bench.ticks(10, {0.5, 0.0});
+  CHECK(verdict.permitted == Twist2{});
+  CHECK(verdict.reasons == (Reason::kPoseDoubtful | Reason::kLatched));
+  bench.pose_doubtful = false;
+  CHECK(bench.ticks(10, {0.5, 0.0}).permitted == Twist2{});
+  bench.reset();
+  CHECK(bench.ticks(10, {0.5, 0.0}).permitted.v_mps > 0.0);
+}
+
+TEST_CASE("no reset counts while the stick is out of its middle: nothing drives off with it") {
+  Bench bench;
+  bench.input.has_goal = false;
+  bench.input.steers = true;
+  bench.input.emergency_stop = true;
+  bench.ticks(3, {});
+  bench.input.emergency_stop = false;
+  bench.input.stick = {1.0, 0.0};
+  bench.input.reset = true;
+  CHECK(has(bench.ticks(3, {}).reasons, Reason::kLatched));
+  bench.input.reset = false;
+  bench.input.stick = {};
+  bench.tick({});
+  bench.input.reset = true;
+  bench.tick({});
+  bench.input.stick = {0.5, 0.0};
+  CHECK(bench.tick({0.01, 0.0}).permitted.v_mps == 0.01);
+  CHECK(bench.supervisor.mode() == Mode::kDriving);
+  bench.input.stick = {};
+  CHECK(has(bench.tick({}).reasons, Reason::kNoGoal));
 }
