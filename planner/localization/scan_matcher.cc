@@ -1,6 +1,7 @@
 #include "planner/localization/scan_matcher.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -56,6 +57,7 @@ void surfaces_about(const EvidenceMap& still, Vec2 anchor, Surfaces& out) {
 struct Line {
   Vec2 mean, normal;
   double across = 0.0, along = 0.0;  ///< variances, m^2
+  double points = 0.0;
 };
 
 /// By their covariance. False for fewer than two, and for those that spread alike all ways.
@@ -66,6 +68,7 @@ bool line_through(const Surfaces& surfaces, Line& out) {
     n += 1.0, sx += d.x, sy += d.y, sxx += d.x * d.x, sxy += d.x * d.y, syy += d.y * d.y;
   }
   if (n < 2.0) return false;
+  out.points = n;
   out.mean = {sx / n, sy / n};
   const Vec2& mean = out.mean;
   const double cxx = sxx / n - mean.x * mean.x, cxy = sxy / n - mean.x * mean.y, cyy = syy / n - mean.y * mean.y;
@@ -93,13 +96,18 @@ constexpr double kLongestAheadS = 0.25;  // a track that is older than two scans
 constexpr std::uint32_t kFewestOnWalls = 15;
 constexpr double kLeastShare = 0.4;  // of the points that do not lie in unknown space
 constexpr int kMostIterations = 10;
+constexpr double kMostByErrors = 0.5;  // share of an axis's information, from which on it tells nothing
 
 struct NormalEquations {
-  Eigen::Matrix3d information;
-  Eigen::Vector3d gradient;
+  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d by_errors = Eigen::Matrix3d::Zero();  ///< of it: expected of errors of the normals alone
+  Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
   std::uint32_t on_walls = 0, on_standing = 0, in_the_open = 0;
   double fit = 0.0;  ///< a point that lies on its wall adds one
 };
+
+/// How the distance of a point, `arm` from the robot, along `direction` changes with (x, y, heading).
+Eigen::Vector3d jacobian_of(Vec2 direction, Vec2 arm) { return {direction.x, direction.y, cross(arm, direction)}; }
 
 NormalEquations normal_equations(const MatchSample& sample, const ScanReference& reference, const Pose2& pose) {
   NormalEquations sum;
@@ -114,14 +122,30 @@ NormalEquations normal_equations(const MatchSample& sample, const ScanReference&
     sum.on_walls += 1;
     sum.on_standing += wall.stands ? 1U : 0U;
     const double r = dot(wall.normal, p - wall.point);
-    const Eigen::Vector3d jacobian(wall.normal.x, wall.normal.y, cross(p - pose.position(), wall.normal));
+    const Eigen::Vector3d jacobian = jacobian_of(wall.normal, p - pose.position());
+    const Eigen::Vector3d along = jacobian_of({-wall.normal.y, wall.normal.x}, p - pose.position());
     const double doubt = 1.0 + r * r / (reference.kernel_m * reference.kernel_m);
     sum.fit += 1.0 / doubt;
     const double weight = reference.independent_share / (wall.variance * doubt * doubt);
     sum.information += weight * jacobian * jacobian.transpose();
+    sum.by_errors += weight * wall.normal_var * along * along.transpose();
     sum.gradient += weight * r * jacobian;
   }
   return sum;
+}
+
+/// Drops the axes of the information that errors of the normals explain (solution remapping: Zhang, Kaess, Singh 2016;
+/// expected errors: Fuller 1987, 1.2). A corridor's walls, fitted to noisy points, seem to tell where along it the
+/// robot is, and hold it there against the wheels: 0.3 m too far after 40 m with noise of 3 cm, at a standard deviation
+/// of 0.03 m.
+void drop_unconstrained(NormalEquations& walls) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(walls.information);
+  const Eigen::Matrix3d& v = axes.eigenvectors();
+  const Eigen::Vector3d by_errors = (v.transpose() * walls.by_errors * v).diagonal();
+  const Eigen::Vector3d kept = (by_errors.array() < kMostByErrors * axes.eigenvalues().array()).cast<double>();
+  const Eigen::Matrix3d keep = v * kept.asDiagonal() * v.transpose();
+  walls.information = keep * walls.information;
+  walls.gradient = keep * walls.gradient;
 }
 
 }  // namespace
@@ -139,7 +163,8 @@ bool line_feature_near(const EvidenceMap& still, Vec2 p, Vec2 viewer, LineFeatur
   drop(surfaces, [&](const Surface& s) { return !(dot(to_viewer, s.to_laser) > -kFromBehind); });
   if (surfaces.size() < all && !line_through(surfaces, line)) return false;
   if (line.across > kThinWallM * kThinWallM || line.along < 4.0 * line.across) return false;
-  out = {anchor + line.mean, line.normal, line.across + kPointStdM * kPointStdM, still.stands(nearest)};
+  const double normal_var = line.across / (std::max(1.0, line.points - 2.0) * line.along);
+  out = {anchor + line.mean, line.normal, line.across + kPointStdM * kPointStdM, normal_var, still.stands(nearest)};
   return true;
 }
 
@@ -166,13 +191,14 @@ MatchResult match_sample(const MatchSample& sample, const ScanReference& referen
   Pose2 pose = correlative_search(predicted, prior, sample, reference);
   Eigen::Matrix3d information;
   for (int k = 0; k < kMostIterations; ++k) {
-    const NormalEquations walls = normal_equations(sample, reference, pose);
+    NormalEquations walls = normal_equations(sample, reference, pose);
     result.known_for_long = walls.on_standing >= kFewestOnWalls;
     const std::uint32_t known = walls.on_walls + walls.in_the_open;
     const double least = kLeastShare * known;
     result.contradicted = least >= kFewestOnWalls && walls.on_walls < least;
     if (walls.on_walls < kFewestOnWalls || walls.on_walls < least) return result;
     result.fit = walls.fit / known;
+    drop_unconstrained(walls);
     information = prior + walls.information;
     const Eigen::Vector3d gradient = walls.gradient + prior * offset(predicted.map_from_robot, pose);
     const Eigen::Vector3d step = information.ldlt().solve(gradient);

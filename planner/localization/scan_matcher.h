@@ -12,8 +12,9 @@ namespace jaywalk {
 /// Straight piece of wall: a point on it, m in the map, and its unit normal, which may point either way.
 struct LineFeature {
   Vec2 point, normal;
-  double variance = 0.0;  ///< across, m^2: of its points, and of the laser's
-  bool stands = false;    ///< its surface nearest to the scan's point has been seen for a second (EvidenceMap::stands)
+  double variance = 0.0;    ///< across, m^2: of its points, and of the laser's
+  double normal_var = 0.0;  ///< of the normal's direction, rad^2
+  bool stands = false;  ///< its surface nearest to the scan's point has been seen for a second (EvidenceMap::stands)
 };
 
 /// Fits a line to the surface points within 0.25 m of the one nearest to `p_in_map`, all of the side that is seen from
@@ -49,8 +50,9 @@ struct MatchResult {
 /// Matches points in the robot's frame, in two steps. A search over a small window of poses (correlative_search) counts
 /// how much of the scan falls on occupied cells: it finds the right valley. Then Gauss and Newton, from there: each
 /// point is drawn to the straight piece of wall nearest to it, across the wall only, together with the prediction by
-/// its own covariance. What the walls do not tell, as where along a corridor the robot is, stays as predicted. Points
-/// where the map knows free space (people) draw nothing.
+/// its own covariance. What the walls do not tell, as where along a corridor the robot is, stays as predicted, and
+/// what errors of their fitted directions tell is taken off. Points where the map knows free space (people) draw
+/// nothing.
 [[nodiscard]] MatchResult match_sample(const MatchSample& sample, const ScanReference& reference,
                                        const PoseBelief& predicted) noexcept;
 

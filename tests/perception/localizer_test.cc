@@ -1,6 +1,7 @@
 #include "planner/localization/localizer.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 
@@ -36,12 +37,12 @@ struct Drive {
   }
   /// The truth, and what the wheels believe it to be.
   void step(const Room& room, const Pose2& truth, const Pose2& by_wheels) {
-    LaserScan seen = scan_of(room, truth, ++scan, 0.01);
+    LaserScan seen = scan_of(room, truth, ++scan, noise_m);
     seen.range_max_m = static_cast<float>(reach_m);
     wheels = wheels_of.reading({to_seconds(seen.stamp), by_wheels});
     look(seen);
   }
-  void step_without_wheels(const Room& room, const Pose2& truth) { look(scan_of(room, truth, ++scan, 0.01)); }
+  void step_without_wheels(const Room& room, const Pose2& truth) { look(scan_of(room, truth, ++scan, noise_m)); }
 
   void look(const LaserScan& seen) {
     estimate = localizer.update(wheels, seen, {}, tracker.still(), tracker.moving());
@@ -61,6 +62,7 @@ struct Drive {
   PoseEstimate estimate;
   std::uint32_t scan = 0;
   double reach_m = 20.0;  ///< of the laser
+  double noise_m = 0.01;  ///< of its ranges, half width
 };
 
 const Room kFurnished = with({{{3.5, -2.5}, 0.3}}, {{{2.0, 5.0}, {2.0, 3.0}}, {{-3.0, -5.0}, {-3.0, -3.5}}});
@@ -168,6 +170,18 @@ TEST_CASE("along a bare corridor the wheels are believed and across it the walls
   CHECK(drive.off_rad({}) < 0.01);
 }
 
+TEST_CASE("noise on a bare corridor's walls does not hold the robot back or push it on") {
+  for (const double metres_by_wheels : {0.9875, 1.0, 1.0125}) {
+    Drive drive({0.0, 0.0, 0.0});
+    drive.noise_m = 0.06;
+    for (int k = 0; k < 600; ++k) drive.go(kCorridor, {0.05, 0.0, 0.0}, {0.05 * metres_by_wheels, 0.0, 0.0});
+    const Pose2 seen_from = drive.robot * Pose2{-0.05, 0.0, 0.0};
+    const double off_m = drive.estimate.map_from_robot.x - seen_from.x * metres_by_wheels;
+    CHECK(std::fabs(off_m) < 0.15);
+    CHECK(drive.estimate.position_std_m > 0.08);  // 0.05 and 0.06 m where errors of normals count as knowledge
+  }
+}
+
 TEST_CASE("wheels that were right for thirty metres are not followed when they spin, fast or slowly") {
   const Pose2 step{0.03, 0.0, 0.02};  // a scan: rounds of 9.4 m
   for (const Pose2& spin : {Pose2{0.08, 0.0, 0.05}, Pose2{0.01, 0.0, 0.005}}) {
@@ -201,19 +215,22 @@ TEST_CASE("wheels that were long right are believed after a stretch of which the
 TEST_CASE("a laser that reaches three metres carries the robot round the end of a wall both faces of which it sees") {
   const Room hall =
       rectangle(16.0, 9.0, {}, {{{-8.0, 0.0}, {0.0, 0.0}}, {{0.0, 0.0}, {0.0, 0.2}}, {{0.0, 0.2}, {-8.0, 0.2}}});
-  for (const double wheels_turn : {1.02, 1.05}) {
-    Drive drive({-5.0, -1.0, 0.0});
+  double sum_m = 0.0;
+  for (std::size_t run = 0; run < 16; ++run) {  // one alone is chance
+    const double wheels_turn = std::array{0.95, 0.98, 1.02, 1.05}[run % 4],
+                 radius_m = 1.1 + 0.04 * static_cast<double>(run / 4);
+    Drive drive({-5.0, 0.1 - radius_m, 0.0});
     drive.reach_m = 3.0;
-    double worst_m = 0.0;
-    // 5.2 m on, half round the wall's end at 1.1 m from it, and back along the other face.
+    // 5.2 m on, half round the wall's end, and back along the other face.
     for (int k = 0; k < 500; ++k) {
       const bool turns = k >= 173 && k < 293;
-      const Pose2 step{turns ? 1.1 * kPi / 120 : 0.03, 0.0, turns ? kPi / 120 : 0.0};
+      const Pose2 step{turns ? radius_m * kPi / 120 : 0.03, 0.0, turns ? kPi / 120 : 0.0};
       drive.go(hall, step, {step.x, 0.0, wheels_turn * step.heading});
-      worst_m = std::max(worst_m, drive.off(drive.robot.position()));
     }
-    CHECK(worst_m < 0.15);  // 0.33 and 0.54 where a face is taken for the other
+    CHECK(drive.worst_m < 0.45);
+    sum_m += drive.worst_m;
   }
+  CHECK(sum_m / 16.0 < 0.25);  // 0.33 m where a face is taken for the other
 }
 
 TEST_CASE("people who walk by do not pull the pose along") {

@@ -92,6 +92,6 @@ TEST_CASE("poses, tracks and map have the same bits with every compiler, optimis
   // The digest is what g++ 11 and 12, clang 14 and aarch64 give (docs/explanation/results.md#tracking-and-poses has the
   // list); it changes with what perception or localisation computes. g++ 12 with -march=x86-64-v3 gives another: it
   // fuses a rotation's two products (vfmaddsub), whatever -ffp-contract=off says; clang does not.
-  CHECK(digest_of_drive(Duration{0}) == 0x3946bc4b4241df98ULL);
-  CHECK(digest_of_drive(std::chrono::milliseconds(50)) == 0x60853013cee2ebfeULL);
+  CHECK(digest_of_drive(Duration{0}) == 0xd5814b7759b96488ULL);
+  CHECK(digest_of_drive(std::chrono::milliseconds(50)) == 0x4a9d44b32b01a026ULL);
 }
