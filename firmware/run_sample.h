@@ -92,8 +92,9 @@ struct RunEnd {
   std::string outcome = {};  ///< reached, collision, forced_mover, timeout, fault; "replayed" for a replay
   bool success = false;
   std::optional<double> static_shortest_path_m = {};
-  std::optional<double> heading_error_rad = {};    ///< at the end, where a heading was wanted at the goal
-  std::optional<double> found_mount_yaw_rad = {};  ///< of the laser, where a replay found it by matching
+  std::optional<double> heading_error_rad = {};     ///< at the end, where a heading was wanted at the goal
+  std::optional<double> found_mount_yaw_rad = {};   ///< of the laser, where a replay found it by matching
+  std::optional<double> found_clock_offset_s = {};  ///< of its odometry, found by its turns
   std::uint64_t missed_ticks = 0;
   std::uint64_t dropped_records = 0;
   std::vector<std::string> not_recorded = {};  ///< what the disk did not take beside the tables, a line each

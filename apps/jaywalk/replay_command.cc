@@ -13,6 +13,7 @@
 #include "apps/jaywalk/commands.h"
 #include "apps/jaywalk/progress.h"
 #include "apps/report/run_observer.h"
+#include "apps/setup/clock_search.h"
 #include "apps/setup/mount_search.h"
 #include "apps/view/live_view.h"
 #include "apps/why/recorded_run.h"
@@ -116,6 +117,15 @@ std::optional<double> find_mount(const ReplayOptions& options, sim::RecordedLog&
   return yaw;
 }
 
+/// Brings the odometry to the scans' clock, as the turns of both agree.
+std::optional<double> agree_clocks(sim::RecordedLog& log) {
+  const std::optional<double> ahead_s = found_clock_offset(log);
+  if (!ahead_s) return std::nullopt;
+  for (sim::OdometryPose& next : log.odometry) next.stamp -= duration_from_seconds(*ahead_s);
+  std::fprintf(stderr, "jaywalk: the odometry's times are %+.2f s off the scans', as both turn; taken off\n", *ahead_s);
+  return ahead_s;
+}
+
 sim::RecordedLog load_and_complain(const ReplayOptions& options, const std::string& format) {
   refuse_to_overwrite(options.logs, options.out);
   std::error_code missing;
@@ -143,6 +153,7 @@ void tell(Progress& progress, const sim::LogReplay& log, Time now) {
 
 int replay_log(const ReplayOptions& options, const std::string& format) {
   sim::RecordedLog recorded = load_and_complain(options, format);
+  const std::optional<double> found_clock = agree_clocks(recorded);
   const std::optional<double> found_yaw = find_mount(options, recorded);
   sim::LogReplay log(std::move(recorded));
   const ControlSetup setup = setup_for(log, options);
@@ -172,6 +183,7 @@ int replay_log(const ReplayOptions& options, const std::string& format) {
            {.outcome = whole ? "replayed" : "interrupted",
             .success = whole,
             .found_mount_yaw_rad = found_yaw,
+            .found_clock_offset_s = found_clock,
             .scenario = name},
            name + told);
   if (view) view->stay(true, interruption);

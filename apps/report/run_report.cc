@@ -239,6 +239,7 @@ std::string RunReport::summary(const RunEnd& end) const {
   j["static_shortest_path_m"] = known(end.static_shortest_path_m);
   j["heading_error_rad"] = known(end.heading_error_rad);
   j["found_mount_yaw_rad"] = known(end.found_mount_yaw_rad);
+  j["found_clock_offset_s"] = known(end.found_clock_offset_s);
   j["duration_s"] = duration_s();
   j["min_clearance_m"] = of_truth(truth.clearance_m);
   j["min_mover_clearance_m"] = of_truth(truth.mover_clearance_m);

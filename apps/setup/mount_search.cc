@@ -12,8 +12,6 @@ namespace {
 
 constexpr double kWay_m = 20.0, kFound_rad = 0.02;
 constexpr int kTries = 7;
-constexpr Duration kTick = std::chrono::milliseconds(20);
-
 /// The scans and odometry of the first kWay_m.
 sim::RecordedLog beginning_of(const sim::RecordedLog& log) {
   sim::RecordedLog part;
@@ -35,21 +33,11 @@ sim::RecordedLog beginning_of(const sim::RecordedLog& log) {
 
 /// By how much the yaw of `part` is still wrong, as far as a life with it tells.
 std::optional<double> missing_in(const sim::RecordedLog& part) {
-  sim::LogReplay replay(part);
-  Hal hal = replay.hal();
-  Localizer localizer({.map_from_robot_at_start = replay.start_pose(),
-                       .drive = replay.drive(),
-                       .robot_from_laser = part.robot_from_laser});
-  Tracker tracker({.robot_from_laser = part.robot_from_laser, .map_centre = replay.start_pose().position()});
   MountCheck check;
-  std::uint32_t last_scan = 0;
-  for (Time next = hal.clock.now() + kTick; !replay.ended(); next += kTick) {
-    const LaserScan& scan = hal.laser.latest();
-    check.add(localizer.update(hal.drive.latest(), scan, {}, tracker.still(), tracker.moving()).map_from_robot);
-    if (scan.sequence != last_scan) tracker.update(scan, localizer.map_from_robot_at_scan(), localizer.twist());
-    last_scan = scan.sequence;
-    hal.clock.sleep_until(next);
-  }
+  live_through(part, [&](const LivedTick& tick) {
+    check.add(tick.map_from_robot);
+    return true;
+  });
   return check.slide();
 }
 
@@ -58,6 +46,25 @@ constexpr double kEnough_m = 5.0;
 constexpr double kStraight_radpm = 0.15;
 
 }  // namespace
+
+void live_through(const sim::RecordedLog& log, const std::function<bool(const LivedTick&)>& visit) {
+  constexpr Duration kTick = std::chrono::milliseconds(20);
+  sim::LogReplay replay(log);
+  Hal hal = replay.hal();
+  Localizer localizer({.map_from_robot_at_start = replay.start_pose(),
+                       .drive = replay.drive(),
+                       .robot_from_laser = log.robot_from_laser});
+  Tracker tracker({.robot_from_laser = log.robot_from_laser, .map_centre = replay.start_pose().position()});
+  std::uint32_t last_scan = 0;
+  for (Time next = hal.clock.now() + kTick; !replay.ended(); next += kTick) {
+    const LaserScan& scan = hal.laser.latest();
+    const Pose2& now = localizer.update(hal.drive.latest(), scan, {}, tracker.still(), tracker.moving()).map_from_robot;
+    if (scan.sequence != last_scan) tracker.update(scan, localizer.map_from_robot_at_scan(), localizer.twist());
+    last_scan = scan.sequence;
+    if (!visit({next, now, scan.stamp, localizer.map_from_robot_at_scan()})) return;
+    hal.clock.sleep_until(next);
+  }
+}
 
 std::optional<double> found_mount_yaw(const sim::RecordedLog& log) {
   if (log.odometry.empty()) return std::nullopt;

@@ -1,10 +1,22 @@
 #pragma once
+#include <functional>
 #include <optional>
 
 #include "apps/formats/logs/recorded_log.h"
 #include "hal/types/geometry.h"
+#include "hal/types/time.h"
 
 namespace jaywalk {
+
+/// What localisation knows at a tick of a recording.
+struct LivedTick {
+  Time now;
+  Pose2 map_from_robot;
+  Time scan_stamp;  ///< of the newest scan
+  Pose2 map_from_robot_at_scan;
+};
+/// Localisation and tracking live through a recording, by its wheels where it has them, until `visit` says false.
+void live_through(const sim::RecordedLog& log, const std::function<bool(const LivedTick&)>& visit);
 
 /// The yaw (rad) of the laser of a recording that says nothing of it, found by matching: localisation and tracking live
 /// through the first 20 m of the recording's way, the yaw that MountCheck misses is added, and so on until less than

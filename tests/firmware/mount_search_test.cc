@@ -1,5 +1,9 @@
 #include "apps/setup/mount_search.h"
 
+#include <cmath>
+#include <functional>
+
+#include "apps/setup/clock_search.h"
 #include "tests/perception/room.h"
 #include "tests/support/catch.h"
 
@@ -27,17 +31,33 @@ Pose2 pose_after(double s) {
   return {2.0, -1.0 + kMps * (s - turned_s), kPi / 2.0};
 }
 
-/// What a laser turned by `yaw` records of `lasts_s` of that way, and nobody says so.
-sim::RecordedLog recorded_with(double yaw, double lasts_s = 19.0) {
+/// What a laser turned by `yaw` records of `lasts_s` of a way.
+sim::RecordedLog recorded_on(const std::function<Pose2(double)>& pose_at, double lasts_s, double yaw) {
   sim::RecordedLog log;
   for (std::uint32_t k = 0; k * kScan_s < lasts_s; ++k) {
-    const Pose2 robot = pose_after(k * kScan_s);
+    const Pose2 robot = pose_at(k * kScan_s);
     const LaserScan scan = scan_of(hall(), robot * Pose2{0.0, 0.0, yaw}, k + 1, 0.01, kFan);
     log.scans.push_back({scan.stamp, k + 1, log.range_m.size(), scan.beam_count, scan.first_angle_rad,
                          scan.angle_step_rad, scan.range_min_m, scan.range_max_m});
     log.range_m.insert(log.range_m.end(), scan.range_m.begin(), scan.range_m.begin() + scan.beam_count);
     log.odometry.push_back({scan.stamp, robot, std::nullopt});
   }
+  return log;
+}
+
+sim::RecordedLog recorded_with(double yaw, double lasts_s = 19.0) { return recorded_on(pose_after, lasts_s, yaw); }
+
+/// To and fro by 1.6 rad every 9 s, on a circle's arc of 0.5 m about (0, 1): 9 rad in 25 s.
+Pose2 swinging(double s) {
+  const double rad = 0.8 * std::sin(2.0 * kPi / 9.0 * s);
+  const Vec2 p = Vec2{0.0, 1.0} + direction(rad - kPi / 2.0) * 0.5;
+  return {p.x, p.y, rad};
+}
+
+/// The same, with odometry stamped `ahead_s` ahead of the scans.
+sim::RecordedLog swung(double ahead_s, double lasts_s = 25.0) {
+  sim::RecordedLog log = recorded_on(swinging, lasts_s, 0.0);
+  for (sim::OdometryPose& next : log.odometry) next.stamp += duration_from_seconds(ahead_s);
   return log;
 }
 
@@ -71,6 +91,23 @@ TEST_CASE("without wheels no yaw is found") {
   sim::RecordedLog log = recorded_with(0.7);
   log.odometry.clear();
   CHECK_FALSE(found_mount_yaw(log).has_value());
+}
+
+TEST_CASE("odometry by another clock than the scans is found by its turns") {
+  for (const double ahead_s : {0.22, -0.3}) {
+    const auto found = found_clock_offset(swung(ahead_s));
+    REQUIRE(found.has_value());
+    CHECK(*found == Approx(ahead_s).margin(0.03));
+  }
+}
+
+TEST_CASE("one clock is left as it is, and so is a recording that turns too little or has no wheels") {
+  CHECK_FALSE(found_clock_offset(swung(0.0)).has_value());
+  CHECK_FALSE(found_clock_offset(swung(0.05)).has_value());
+  CHECK_FALSE(found_clock_offset(swung(0.3, 6.0)).has_value());
+  sim::RecordedLog log = swung(0.3);
+  log.odometry.clear();
+  CHECK_FALSE(found_clock_offset(log).has_value());
 }
 
 TEST_CASE("a robot that drives where it looks has its laser mounted right") {
