@@ -96,7 +96,7 @@ constexpr double kLongestAheadS = 0.25;  // a track that is older than two scans
 constexpr std::uint32_t kFewestOnWalls = 15;
 constexpr double kLeastShare = 0.4;  // of the points that do not lie in unknown space
 constexpr int kMostIterations = 10;
-constexpr double kMostByErrors = 0.5;  // share of an axis's information, from which on it tells nothing
+constexpr double kMostByErrors = 0.35;  // share of an axis's information, from which on it tells nothing
 
 struct NormalEquations {
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
